@@ -1,0 +1,64 @@
+// The thrower's state machine: unfold, measure, align, fold, run, release, brake, stopped.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "servo/command.hpp"
+#include "servo/observation.hpp"
+#include "servo/shot.hpp"
+#include "servo/thrower_config.hpp"
+
+namespace hogline::servo {
+
+enum class ThrowerState { unfold, measure, align, fold, run, release, brake, stopped };
+
+const char* to_string(ThrowerState state);
+
+/// When a state was entered.
+struct StateEntry {
+  ThrowerState state = ThrowerState::unfold;
+  Stamp since{};
+};
+
+/// What the controller believes, for drawings and logs. Truth is elsewhere.
+struct ThrowerDiagnosis {
+  double yaw_rad = 0.0;                    ///< fused heading in e
+  double yaw_sigma_rad = 0.0;
+  double hog_distance_m = 0.0;             ///< filtered, of b's origin
+  double hog_distance_sigma_m = 0.0;
+  double lateral_m = 0.0;                  ///< from the shot's line, left positive
+  double speed_mps = 0.0;
+  double speed_setpoint_mps = 0.0;
+  std::optional<double> yaw_after_alignment_rad;
+  std::optional<Stamp> predicted_release;  ///< when the stone's release plane will be crossed
+};
+
+/// One throw, from a robot that stands and holds a stone to a robot that stands. Pure: no clock, no thread, no device.
+/// Every state has a deadline; a deadline, a device error, or stale or non-finite input aborts: the stone is kept, the
+/// robot brakes and ends in `stopped`, and nothing moves again (a new Thrower is a new arming).
+class Thrower {
+ public:
+  Thrower(const ThrowerConfig& config, const ShotOrder& order, Stamp start);
+  ~Thrower();
+  Thrower(Thrower&&) noexcept;
+  Thrower& operator=(Thrower&&) noexcept;
+
+  /// One control period. `observation.now` must not go back; `dt` is the time since the last call.
+  ThrowerCommand step(const ThrowerObservation& observation, Duration dt);
+
+  ThrowerState state() const;
+  bool finished() const;                               ///< stopped, and at rest
+  bool released() const;                               ///< the stone was let go
+  const std::optional<std::string>& abort_reason() const;
+  const std::vector<StateEntry>& history() const;
+  const ThrowerDiagnosis& diagnosis() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hogline::servo
