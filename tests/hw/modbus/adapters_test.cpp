@@ -23,11 +23,11 @@ sim::GripperScenario gripper_scenario(bool holds) {
 
 class Rig {
  public:
-  explicit Rig(bool holds = true)
+  explicit Rig(bool holds = true, Duration reconnect_delay = 200ms)
       : devices(gripper_scenario(holds), {.acceleration_radps2 = 4.0, .max_speed_radps = 3.0, .watchdog_s = 0.2},
                 {.travel_time_s = 1.5, .unfolded_at_start = false, .watchdog_s = 0.2}, 7, Stamp{}),
-        session({.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 20ms},
-                 .reconnect_delay = 30ms}),
+        session({.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 200ms},
+                 .reconnect_delay = reconnect_delay}),
         gripper(session, {.jaws = {.unit = 9,
                                    .poll_period = 20ms,
                                    .echo_deadline = 60ms,
@@ -291,7 +291,7 @@ const LineFault line_faults[] = {
 INSTANTIATE_TEST_SUITE_P(faults, ModbusLine, testing::ValuesIn(line_faults));
 
 TEST(ModbusLine, one_lost_answer_is_forgiven) {
-  Rig rig;
+  Rig rig(true, 20ms);
   rig.run(100ms);
   rig.devices.stall();
   rig.run(5ms);

@@ -35,7 +35,7 @@ class Rig {
 
   void connect() {
     client.reset(modbus_new_tcp("127.0.0.1", devices.port()));
-    modbus_set_response_timeout(client.get(), 0, 50000);
+    modbus_set_response_timeout(client.get(), 0, 500000);
     connected = modbus_connect(client.get()) == 0;
   }
   template <std::size_t N>
