@@ -39,7 +39,8 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
 
 void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
   app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
-  app->add_option("--scenario", options.scenario, "scenario file (YAML) of the simulated rink; without it the practice rink");
+  app->add_option("--scenario", options.scenario,
+                  "scenario file (YAML) of the simulated rink; without it the practice rink");
   app->add_option("--speed", options.speed_mps, "of the stone at release, m/s")->capture_default_str();
   app->add_option("--heading-deg", options.heading_deg, "of the shot's line, counter-clockwise from down-ice")
       ->capture_default_str();

@@ -8,7 +8,8 @@ namespace hogline::config {
 
 struct ConfigError : std::runtime_error {
   /// "FILE:LINE: KEY = VALUE: PROBLEM"; line 0 and an empty value are left out.
-  ConfigError(std::string file_name, int line_number, std::string key_path, std::string value_text, std::string problem);
+  ConfigError(std::string file_name, int line_number, std::string key_path, std::string value_text,
+              std::string problem);
 
   std::string file;
   int line;

@@ -37,8 +37,9 @@ vision::Intrinsics read_intrinsics(const json& c, const std::string& key, const 
   const json& distortion = c.at("distortion");
   const std::size_t wanted = i.model == vision::LensModel::brown_conrady ? 5 : 4;
   if (distortion.size() != wanted) {
-    throw ConfigError(document.file, document.line_of(key + ".distortion"), key + ".distortion", distortion.dump(),
-                      fmt::format("must be a list of {} values with model {}", wanted, c.at("model").get<std::string>()));
+    throw ConfigError(
+        document.file, document.line_of(key + ".distortion"), key + ".distortion", distortion.dump(),
+        fmt::format("must be a list of {} values with model {}", wanted, c.at("model").get<std::string>()));
   }
   for (std::size_t k = 0; k < wanted; ++k) i.distortion[k] = distortion[k];
   return i;
@@ -81,11 +82,12 @@ Rig parse_rig(std::string_view text, const std::string& name) {
   Document document{.file = name, .lines = {}};
   const json rig = read_yaml(text, document);
   check(rig, "rig.schema.json", document);
-  return {.file = name,
-          .near_camera = read_camera(rig, "near", document),
-          .low_camera = read_camera(rig, "low", document),
-          .far_camera = read_camera(rig, "far", document),
-          .stone = {.radius_m = rig.at("stone").at("handle_radius_m"), .height_m = rig.at("stone").at("handle_height_m")}};
+  return {
+      .file = name,
+      .near_camera = read_camera(rig, "near", document),
+      .low_camera = read_camera(rig, "low", document),
+      .far_camera = read_camera(rig, "far", document),
+      .stone = {.radius_m = rig.at("stone").at("handle_radius_m"), .height_m = rig.at("stone").at("handle_height_m")}};
 }
 
 }  // namespace hogline::config

@@ -145,7 +145,8 @@ Scenario parse_scenario(std::string_view text, const std::string& name, std::uin
   Scenario scenario;
   scenario.seed = seed;
   scenario.sheet = read_sheet(s.section("sheet"));
-  scenario.light = {.level = s.section("light").number("level"), .falloff_per_m = s.section("light").number("falloff_per_m")};
+  scenario.light = {.level = s.section("light").number("level"),
+                    .falloff_per_m = s.section("light").number("falloff_per_m")};
   scenario.robot = read_robot(s.section("robot"));
   scenario.drive = {.bandwidth_hz = s.section("drive").number("bandwidth_hz"),
                     .dead_time_s = s.section("drive").number("dead_time_s")};

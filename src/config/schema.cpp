@@ -36,7 +36,8 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 std::string shortened(const json& value) {
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text.size() > 40 ? text.substr(0, 37) + "..." : text;
 }
 
@@ -120,7 +121,8 @@ class Explainer {
     }
   }
 
-  void refuse_unknown(const std::string& key, const std::string& name, const json& value, const json& properties) const {
+  void refuse_unknown(const std::string& key, const std::string& name, const json& value,
+                      const json& properties) const {
     std::string nearest;
     std::size_t best = name.size() / 2 + 1;
     for (const auto& [known, _] : properties.items()) {
@@ -138,7 +140,9 @@ class Explainer {
     throw ConfigError(document_.file, document_.line_of(key), key, value, problem);
   }
 
-  static std::string join(const std::string& key, const std::string& name) { return key.empty() ? name : key + "." + name; }
+  static std::string join(const std::string& key, const std::string& name) {
+    return key.empty() ? name : key + "." + name;
+  }
 
   static std::string hint(const json& schema) {
     const std::string about = schema.value("description", "");

@@ -25,11 +25,16 @@ class Reader {
     const int line = node.Mark().is_null() ? 0 : node.Mark().line + 1;
     document_.lines.try_emplace(key, line);
     switch (node.Type()) {
-      case YAML::NodeType::Map: return read_map(node, key);
-      case YAML::NodeType::Sequence: return read_sequence(node, key);
-      case YAML::NodeType::Scalar: return read_scalar(node, key);
-      case YAML::NodeType::Null: return nullptr;
-      case YAML::NodeType::Undefined: break;
+      case YAML::NodeType::Map:
+        return read_map(node, key);
+      case YAML::NodeType::Sequence:
+        return read_sequence(node, key);
+      case YAML::NodeType::Scalar:
+        return read_scalar(node, key);
+      case YAML::NodeType::Null:
+        return nullptr;
+      case YAML::NodeType::Undefined:
+        break;
     }
     return nullptr;
   }
@@ -42,7 +47,8 @@ class Reader {
       if (!entry.first.IsScalar()) throw ConfigError(document_.file, line, key, "", "a key must be a plain word");
       const std::string name = entry.first.Scalar();
       const std::string path = key.empty() ? name : key + "." + name;
-      if (object.contains(name)) throw ConfigError(document_.file, line, path, "", "this key stands here twice; keep one");
+      if (object.contains(name))
+        throw ConfigError(document_.file, line, path, "", "this key stands here twice; keep one");
       document_.lines[path] = line;
       object[name] = read(entry.second, path);
     }
