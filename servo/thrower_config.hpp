@@ -8,14 +8,14 @@ namespace hogline::servo {
 /// The two-wheeled base.
 struct BaseGeometry {
   double wheel_radius_m = 0.0;
-  double track_m = 0.0;        ///< between the wheels' contact points
+  double track_m = 0.0;  ///< between the wheels' contact points
 };
 
 struct MotionLimits {
   double max_speed_mps = 0.0;
   double max_acceleration_mps2 = 0.0;
   double max_jerk_mps3 = 0.0;
-  double max_deceleration_mps2 = 0.0;   ///< after the release
+  double max_deceleration_mps2 = 0.0;  ///< after the release
   double max_yaw_rate_radps = 0.0;
   double max_yaw_acceleration_radps2 = 0.0;
 };
@@ -34,8 +34,8 @@ struct AgeLimits {
   Duration gyro{};
   Duration gripper{};
   Duration arm{};
-  Duration near_view{};          ///< while measuring and aligning
-  Duration low_view{};           ///< while the low view is the source of the distance
+  Duration near_view{};  ///< while measuring and aligning
+  Duration low_view{};   ///< while the low view is the source of the distance
 };
 
 struct ThrowerConfig {
