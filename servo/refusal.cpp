@@ -1,6 +1,6 @@
 #include "servo/refusal.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <numbers>
