@@ -64,6 +64,7 @@ struct Thrower::Impl {
   std::optional<SpeedProfile> profile;    // run
   std::optional<LineTracking> tracking;   // run, release, brake
   double speed_setpoint_mps = 0.0;
+  double driven_scale = 1.0;  // of the odometry, as passed on to the wheels
   bool release_ordered = false;
   bool released = false;
   Duration at_rest_for{};

@@ -10,6 +10,7 @@ namespace {
 constexpr double resting_mps = 0.01;
 constexpr double resting_radps = 0.02;
 constexpr auto resting_time = std::chrono::milliseconds(200);
+constexpr double scale_part = 0.2;
 constexpr double line_sigmas = 3.0;  // of the place, kept clear of the hog line when braking with the stone
 
 }  // namespace
@@ -102,13 +103,16 @@ bool Thrower::Impl::has_come_to_rest(const ThrowerObservation& o, Duration dt) {
   return at_rest_for >= resting_time;
 }
 
-// A true speed is asked for; the wheels are told what they will measure at it.
+// A true speed is asked for; the wheels are told what they will measure at it. What a look teaches of the odometry's
+// scale is passed on gradually, as a small part of the allowed acceleration.
 DriveCommand Thrower::Impl::drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt) {
   const double scale = estimate.hog_distance().at(now).scale;
+  const double change = scale_part * config.limits.max_acceleration_mps2 * seconds(dt) / order.speed_mps;
+  driven_scale += std::clamp(scale - driven_scale, -change, change);
   const double lateral_m = estimate.lateral().lateral_m();
   const double heading_rad = estimate.heading(now).yaw_rad;
   const double yaw_rate_radps = tracking->step(lateral_m, heading_rad, true_speed_mps, to_release_s, dt);
-  return velocity({true_speed_mps / scale, yaw_rate_radps});
+  return velocity({true_speed_mps / driven_scale, yaw_rate_radps});
 }
 
 DriveCommand Thrower::Impl::velocity(const PlanarTwist& twist) const {
