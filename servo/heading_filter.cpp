@@ -54,8 +54,9 @@ void HeadingModel::drive(State& state, double dt_s, const Input& input) const {
 
 bool HeadingModel::correct(State& state, const Measurement& measurement) const {
   const double innovation = wrapped(measurement.yaw_rad - state.yaw_rad);
-  const double variance = state.yaw_yaw + measurement.sigma_rad * measurement.sigma_rad;
-  if (innovation * innovation > gate_sigma * gate_sigma * variance) return false;
+  const double look_variance = measurement.sigma_rad * measurement.sigma_rad;
+  if (innovation * innovation > gate_sigma * gate_sigma * (state.yaw_yaw + look_variance)) return false;
+  const double variance = state.yaw_yaw + look_variance / measurement.counts_as;
   const double yaw_gain = state.yaw_yaw / variance;
   const double bias_gain = state.yaw_bias / variance;
   state.yaw_rad = wrapped(state.yaw_rad + yaw_gain * innovation);
@@ -80,9 +81,9 @@ void HeadingFilter::start(Stamp stamp, double yaw_rad, double sigma_rad) {
   started_ = true;
 }
 
-Fusion HeadingFilter::sheet_yaw(Stamp stamp, double yaw_rad, double sigma_rad) {
-  assert(started_ && std::isfinite(yaw_rad) && sigma_rad > 0.0);
-  const Fusion fusion = fusion_.measure(stamp, {yaw_rad, sigma_rad});
+Fusion HeadingFilter::sheet_yaw(Stamp stamp, double yaw_rad, double sigma_rad, double counts_as) {
+  assert(started_ && std::isfinite(yaw_rad) && sigma_rad > 0.0 && counts_as > 0.0);
+  const Fusion fusion = fusion_.measure(stamp, {yaw_rad, sigma_rad, counts_as});
   if (fusion == Fusion::accepted) gated_in_a_row_ = 0;
   if (fusion == Fusion::gated) ++gated_, ++gated_in_a_row_;
   return fusion;

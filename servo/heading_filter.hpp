@@ -33,6 +33,7 @@ class HeadingModel {
   struct Measurement {
     double yaw_rad = 0.0;
     double sigma_rad = 0.0;
+    double counts_as = 1.0;  ///< of how many independent looks; the gate takes it for one
   };
 
   explicit HeadingModel(const GyroConfig& config) : config_(config) {}
@@ -56,8 +57,10 @@ class HeadingFilter {
   void start(Stamp stamp, double yaw_rad, double sigma_rad);
   bool started() const { return started_; }
 
-  /// A yaw seen at `stamp` (middle of exposure), however late. Precondition: started, sigma_rad > 0, all finite.
-  Fusion sheet_yaw(Stamp stamp, double yaw_rad, double sigma_rad);
+  /// A yaw seen at `stamp` (middle of exposure), however late. `counts_as`: looks that share an error of n looks'
+  /// length count as one n-th of an independent look each. Precondition: started, sigma_rad > 0, 0 < counts_as <= 1,
+  /// all finite.
+  Fusion sheet_yaw(Stamp stamp, double yaw_rad, double sigma_rad, double counts_as = 1.0);
 
   HeadingEstimate at(Stamp stamp) const;
   int gated_in_a_row() const { return gated_in_a_row_; }

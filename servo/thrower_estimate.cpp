@@ -10,6 +10,9 @@ constexpr double resting_mps = 0.003;
 constexpr double resting_radps = 0.01;
 // So many looks in a row that do not fit are not bad luck.
 constexpr int contradicting_looks = 10;
+// A camera's yaw error is that of its mount, its lens and the paint it sees: it lasts. A second of looks at 60 Hz is
+// worth one, and the gyro decides in between.
+constexpr double yaw_look_counts_as = 1.0 / 60.0;
 
 bool resting(const PlanarTwist& twist) {
   return std::abs(twist.forward_mps) < resting_mps && std::abs(twist.yaw_rate_radps) < resting_radps;
@@ -65,14 +68,15 @@ void ThrowerEstimate::take_gyro(const GyroObservation& gyro, bool standing) {
 void ThrowerEstimate::take_near_view(const SheetPosePercept& view) {
   if (near_stamp_ && view.stamp == *near_stamp_) return;
   near_stamp_ = view.stamp;
-  if (view.ok && heading_.started()) heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad);
+  if (!view.ok || !heading_.started()) return;
+  heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
 }
 
 void ThrowerEstimate::take_low_view(const SheetPosePercept& view) {
   if (low_stamp_ && view.stamp == *low_stamp_) return;
   low_stamp_ = view.stamp;
   if (!view.ok || !on_line()) return;
-  heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad);
+  heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
   hog_distance_->hog_distance(view.stamp, view.hog_distance_m, view.hog_distance_sigma_m);
   lateral_->correct(view);
 }

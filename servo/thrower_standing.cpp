@@ -1,5 +1,7 @@
 // The states before the run: unfold, measure, align, fold.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "servo/refusal.hpp"
 #include "servo/thrower_impl.hpp"
@@ -50,7 +52,8 @@ double Thrower::Impl::turn_to_heading(Stamp now, Duration dt, bool& settled) {
   return turn.ok ? turn.yaw_rate_radps : 0.0;
 }
 
-// The place the run starts from is looked at anew once the body stands: it may have shifted in the turn.
+// Place and heading are looked at anew once the body stands: it may have shifted in the turn, and the near view's error
+// differs with the direction it looks in. When the heading is not what the gyro said, the turn goes on.
 ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
   bool settled = false;
@@ -64,6 +67,11 @@ ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   if (!settled || place.size() < config.measure.frames) return command;
 
   const Place here = *place.average();
+  estimate.start_heading(o.now, here);
+  place.clear();
+  const double error_rad = std::remainder(here.body.yaw_rad - order.heading_rad, 2.0 * std::numbers::pi);
+  if (std::abs(error_rad) > std::max(config.alignment.tolerance_rad, here.sigma.yaw_rad)) return command;
+
   abort.set(run_does_not_fit(here.hog_distance_m));
   diagnosis.yaw_after_alignment_rad = estimate.heading(o.now).yaw_rad;
   estimate.start_line(o.now, here, order.heading_rad);

@@ -86,7 +86,8 @@ SheetPosePercept Plant::percept(bool near) {
   p.hog_distance_sigma_m = hog_sigma;
   p.hog_distance_m = truth_.hog_distance_m + noise(hog_sigma);
   p.body = {truth_.x_m + noise(settings_.place_sigma_m), tee_to_hog_m - p.hog_distance_m,
-            truth_.yaw_rad + noise(yaw_sigma)};
+            (near ? settings_.near_yaw_gain * truth_.yaw_rad : truth_.yaw_rad + settings_.low_yaw_bias_rad) +
+                noise(yaw_sigma)};
   return p;
 }
 

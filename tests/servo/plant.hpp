@@ -25,6 +25,8 @@ struct PlantSettings {
   double gyro_bias_radps = 0.0;
   double gyro_noise_rad_per_sqrt_s = 3e-5;
   double near_yaw_sigma_rad = 0.0005;
+  double near_yaw_gain = 1.0;  ///< seen over true: an error that grows with the angle
+  double low_yaw_bias_rad = 0.0;
   double low_yaw_sigma_rad = 0.002;
   double low_hog_sigma_m = 0.010;
   double place_sigma_m = 0.003;

@@ -114,6 +114,22 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+// The near view's error may grow with the angle it looks at the sheet, and the low camera's mount may be off: neither
+// spoils the heading at the release.
+TEST(Throw, LastingErrorsOfTheCamerasDoNotTurnTheShot) {
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    PlantSettings settings = plain_settings(seed);
+    settings.near_yaw_gain = 1.02;
+    settings.low_yaw_bias_rad = (seed % 2 == 0 ? 0.1 : -0.1) * degree;
+    const Outcome o = throw_stone(thrower_config(), draw(), settings);
+    ASSERT_FALSE(o.abort) << *o.abort;
+    EXPECT_LT(std::abs(*o.yaw_after_alignment_rad - draw().heading_rad), 0.05 * degree);
+    squares += std::pow((o.at_release->yaw_rad - draw().heading_rad) / degree, 2);
+  }
+  EXPECT_LT(std::sqrt(squares / 10.0), 0.03);
+}
+
 TEST(Throw, GoesThroughItsStatesInOrder) {
   const Outcome o = throw_stone(thrower_config(), draw(), plain_settings(1));
   const std::vector<ThrowerState> wanted{ThrowerState::unfold, ThrowerState::measure, ThrowerState::align,
