@@ -25,12 +25,15 @@ template <class Value, class Sigma>
 Average robust(const std::vector<SheetPosePercept>& looks, Value value_of, Sigma sigma_of) {
   std::vector<double> values;
   std::vector<double> sigmas;
+  values.reserve(looks.size());
+  sigmas.reserve(looks.size());
   for (const SheetPosePercept& look : looks) {
     values.push_back(value_of(look));
     sigmas.push_back(sigma_of(look));
   }
   const double centre = median(values);
   std::vector<double> distances;
+  distances.reserve(values.size());
   for (const double value : values) distances.push_back(std::abs(value - centre));
   Average average;
   average.sigma = std::max(median(sigmas), sigma_of_mad * median(distances));

@@ -23,9 +23,9 @@ WheelPair wheels_of(const PlanarTwist& twist, const BaseGeometry& base);
 PlanarTwist twist_of(const WheelPair& wheels, const BaseGeometry& base);
 
 /// eJe of vpServo, 6 x 2, row by row: maps (forward speed, yaw rate) to b's twist in b, translation first.
-constexpr std::array<double, 12> unicycle_eJe() { return {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}; }
+constexpr std::array<double, 12> unicycle_jacobian() { return {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}; }
 
 /// The second column alone, 6 x 1: the base that turns on the spot.
-constexpr std::array<double, 6> turning_eJe() { return {0, 0, 0, 0, 0, 1}; }
+constexpr std::array<double, 6> turning_jacobian() { return {0, 0, 0, 0, 0, 1}; }
 
 }  // namespace hogline::servo

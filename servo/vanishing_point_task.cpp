@@ -33,7 +33,7 @@ vpVelocityTwistMatrix twist_matrix(const RowMajor3& cRb) {
 }
 
 vpMatrix turning_matrix() {
-  const std::array<double, 6> column = turning_eJe();
+  const std::array<double, 6> column = turning_jacobian();
   vpMatrix eJe(6, 1);
   for (unsigned int i = 0; i < 6; ++i) eJe[i][0] = column[i];
   return eJe;

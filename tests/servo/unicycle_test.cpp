@@ -35,7 +35,7 @@ TEST(Unicycle, ForwardTurnsBothWheelsAlike) {
 TEST(Unicycle, JacobianIsTheDerivativeOfTheMotion) {
   // A body at the origin that moves for a short time: its displacement in b over the time is its twist in b.
   const double dt = 1e-7;
-  const std::array<double, 12> eJe = unicycle_eJe();
+  const std::array<double, 12> eJe = unicycle_jacobian();
   for (int column = 0; column < 2; ++column) {
     const double forward = column == 0 ? 1.0 : 0.0;
     const double turn = column == 1 ? 1.0 : 0.0;
@@ -43,7 +43,7 @@ TEST(Unicycle, JacobianIsTheDerivativeOfTheMotion) {
         forward * std::cos(turn * dt / 2), forward * std::sin(turn * dt / 2), 0, 0, 0, turn};
     for (int row = 0; row < 6; ++row) EXPECT_NEAR(eJe[row * 2 + column], twist[row], 1e-6) << row << " " << column;
   }
-  for (int row = 0; row < 6; ++row) EXPECT_EQ(turning_eJe()[row], eJe[row * 2 + 1]);
+  for (int row = 0; row < 6; ++row) EXPECT_EQ(turning_jacobian()[row], eJe[row * 2 + 1]);
 }
 
 }  // namespace
