@@ -17,7 +17,7 @@ struct MotionLimits {
   double max_speed_mps = 0.0;
   double max_acceleration_mps2 = 0.0;
   double max_jerk_mps3 = 0.0;
-  double max_deceleration_mps2 = 0.0;  ///< after the release
+  double max_deceleration_mps2 = 0.0;  ///< after the release; what a quick stop is sure to reach
   double max_yaw_rate_radps = 0.0;
   double max_yaw_acceleration_radps2 = 0.0;
 };

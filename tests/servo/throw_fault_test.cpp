@@ -98,6 +98,14 @@ void expect_nothing_moves_after(const Outcome& o, Stamp found, bool stone_kept) 
   EXPECT_EQ(o.moments.back().truth.yaw_rate_radps, 0.0);
 }
 
+/// The reason names the device at fault, or the state that waited for it in vain.
+void expect_named(const std::string& reason, const std::string& fault) {
+  std::string device = fault.substr(0, fault.find('_'));
+  if (device == "stone" || device == "jaws") device = "gripper";
+  if (device == "time") device = "control period: time goes back";
+  EXPECT_TRUE(reason.find(device) != std::string::npos || reason.find("deadline") != std::string::npos) << reason;
+}
+
 // The fault lasts half a second, then all is well again: that must not bring the throw back to life.
 TEST_P(ThrowFault, StopsTheRobotForGood) {
   const auto& [state, fault] = GetParam();
@@ -115,6 +123,7 @@ TEST_P(ThrowFault, StopsTheRobotForGood) {
   ASSERT_TRUE(o.abort);
   ASSERT_TRUE(found);
   EXPECT_TRUE(o.finished);
+  expect_named(*o.abort, fault.name);
   const bool kept = state != ThrowerState::release && state != ThrowerState::brake;
   EXPECT_EQ(o.jaws_opened, !kept);
   expect_nothing_moves_after(o, *found, kept);
@@ -236,6 +245,26 @@ TEST(ReleaseState, JawsThatDoNotOpenAreToldToHold) {
   EXPECT_NE(o.abort->find("deadline of release"), std::string::npos) << *o.abort;
   EXPECT_FALSE(o.released);
   EXPECT_FALSE(o.moments.back().command.gripper.release);
+}
+
+// A fault found in any period around the release: before the order the stone stays, after it the jaws go on opening.
+TEST(ReleaseState, AFaultAroundTheReleaseNeverOrdersIt) {
+  const Outcome well = throw_stone(thrower_config(), draw(), plain_settings());
+  Stamp ordered{};
+  for (const StateEntry& entry : well.history) {
+    if (entry.state == ThrowerState::release) ordered = entry.since;
+  }
+  for (int i = -15; i <= 15; ++i) {
+    const Stamp at = ordered + i * period;
+    const Spoil spoil = [at](ThrowerObservation& o, const Thrower&) {
+      if (o.now >= at) o.device_error = "arm: gone";
+    };
+    const Outcome o = throw_stone(thrower_config(), draw(), plain_settings(), spoil);
+    ASSERT_TRUE(o.abort);
+    EXPECT_EQ(o.jaws_opened, i > 0) << i;
+    EXPECT_EQ(o.released, i > 0) << i;
+    EXPECT_EQ(o.moments.back().truth.speed_mps, 0.0);
+  }
 }
 
 TEST(Sight, ALowViewThatContradictsTheWheelsStopsTheRun) {
