@@ -226,6 +226,20 @@ TEST(PointOfNoReturn, ABlindRunIsGivenUpBeforeTheLine) {
   }
 }
 
+// A fast run can not be stopped any more soon after the line has come into sight: the first few looks must do.
+TEST(PointOfNoReturn, ALineThatJustCameIntoSightIsEnough) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    PlantSettings settings = plain_settings(seed);
+    settings.visible_from_m = 4.2;
+    settings.low_hog_sigma_m = 0.03;
+    ShotOrder order = draw();
+    order.speed_mps = 3.3;
+    const Outcome o = throw_stone(thrower_config(), order, settings);
+    EXPECT_FALSE(o.abort) << *o.abort;
+    EXPECT_TRUE(o.released);
+  }
+}
+
 TEST(PointOfNoReturn, ADragThatTheDriveDoesNotOvercomeIsGivenUp) {
   const Spoil spoil = [](ThrowerObservation& o, const Thrower& thrower) {
     if (thrower.state() != ThrowerState::run) return;
