@@ -1,8 +1,8 @@
 #include "servo/release.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+#include <sstream>
 
 namespace hogline::servo {
 namespace {
@@ -11,9 +11,10 @@ constexpr double rule_sigmas = 3.0;   // of the place, kept clear of the line
 constexpr double place_sigmas = 2.0;  // of the place, to lie within the tolerance
 
 std::string with_numbers(const char* what, double is, double allowed, const char* unit) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s %.4g %s (allowed %.4g)", what, is, unit, allowed);
-  return text;
+  std::ostringstream text;
+  text.precision(4);
+  text << what << ' ' << is << ' ' << unit << " (allowed " << allowed << ')';
+  return text.str();
 }
 
 ReleaseDecision never(ReleaseDecision decision, std::string reason) {

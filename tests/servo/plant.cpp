@@ -13,6 +13,7 @@ constexpr int substeps = 5;
 constexpr double frame_period_s = 1.0 / 60.0;
 constexpr double arm_time_s = 1.0;
 constexpr double spin_lag_s = 0.15;
+constexpr double disturbance_time_s = 0.5;
 constexpr double quick_stop_mps2 = 2.5;
 
 double stone_deceleration_mps2(double speed_mps) {
@@ -131,7 +132,10 @@ void Plant::move(double dt_s) {
   const double left = radius * (1.0 - settings_.radius_difference / 2.0) * left_radps_;
   const double right = radius * (1.0 + settings_.radius_difference / 2.0) * right_radps_;
   truth_.speed_mps = (left + right) / 2.0;
-  truth_.yaw_rate_radps = (right - left) / config_.base.track_m;
+  const double keep = std::exp(-dt_s / disturbance_time_s);
+  wander_ = keep * wander_ + noise(std::sqrt(1.0 - keep * keep));
+  truth_.yaw_rate_radps =
+      (right - left) / config_.base.track_m + settings_.yaw_disturbance_radps * truth_.speed_mps / 2.0 * wander_;
   truth_.yaw_rad += truth_.yaw_rate_radps * dt_s;
   truth_.x_m -= truth_.speed_mps * std::sin(truth_.yaw_rad) * dt_s;
   truth_.y_m += truth_.speed_mps * std::cos(truth_.yaw_rad) * dt_s;

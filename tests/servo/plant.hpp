@@ -18,8 +18,9 @@ struct PlantSettings {
   double x_m = 0.05;
   double hog_distance_m = 9.8;
   double yaw_rad = 0.0;
-  double radius_error = 0.01;      ///< true radius over the configured one, less one
-  double radius_difference = 0.0;  ///< right less left, over the radius
+  double radius_error = 0.01;          ///< true radius over the configured one, less one
+  double radius_difference = 0.0;      ///< right less left, over the radius
+  double yaw_disturbance_radps = 0.0;  ///< of ruts and pebble at 2 m/s, in proportion to the speed; lasts 0.5 s
   double drive_lag_s = 0.03;
   double breakaway_radps = 0.0;  ///< a resting wheel does not follow a command slower than this
   double gyro_bias_radps = 0.0;
@@ -77,6 +78,7 @@ class Plant {
   std::mt19937_64 random_;
   Stamp now_;
   PlantTruth truth_;
+  double wander_ = 0.0;
   double left_radps_ = 0.0;
   double right_radps_ = 0.0;
   ThrowerCommand command_;

@@ -44,7 +44,7 @@ inline ThrowerConfig thrower_config() {
   c.gyro = {.noise_rad_per_sqrt_s = 3e-5, .bias_sigma_radps = 0.01, .bias_drift_radps_per_sqrt_s = 1e-6};
   c.odometry = {.scale_sigma = 0.02, .scale_drift_per_sqrt_m = 0.0005, .noise_m_per_sqrt_m = 0.001};
   c.run = {.hold_distance_m = 0.8,
-           .heading_gain_per_s = 5.0,
+           .heading_gain_per_s = 8.0,
            .lateral_length_m = 2.0,
            .max_lateral_heading_rad = 1.0 * degree,
            .speed_tolerance_mps = 0.12,

@@ -26,6 +26,7 @@ PlantSettings plain_settings(std::uint64_t seed) {
   settings.radius_difference = seed % 4 < 2 ? 0.004 : -0.004;
   settings.gyro_bias_radps = seed % 5 < 2 ? 0.004 : -0.002;
   settings.breakaway_radps = 0.5 * degree * 0.25 / 0.1;
+  settings.yaw_disturbance_radps = 0.003;
   return settings;
 }
 
