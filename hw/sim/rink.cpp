@@ -46,7 +46,8 @@ std::optional<double> Rink::Wheel::axis_radps() const {
 }
 
 Rink::Rink(const RinkConfig& config, Stamp start)
-    : clock_(start),
+    : start_(start),
+      clock_(start),
       bus_(config.bus),
       program_can_(bus_.make_endpoint()),
       left_(config.left, config.scenario.drive, bus_.make_endpoint()),

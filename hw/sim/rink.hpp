@@ -41,6 +41,7 @@ class Rink {
 
   const Clock& clock() const { return clock_; }
   Stamp now() const { return clock_.now(); }
+  Stamp start() const { return start_; }
   const Truth& truth() const { return world_.truth(); }
   const WorldHistory& history() const { return history_; }
 
@@ -68,6 +69,7 @@ class Rink {
   };
   void substep(Duration span);
 
+  Stamp start_;
   SteppedClock clock_;
   VirtualCanBus bus_;
   CanBus& program_can_;

@@ -19,8 +19,12 @@ BodyTwist mix(const BodyTwist& a, const BodyTwist& b, double share) {
 }
 
 StoneTruth mix(const StoneTruth& a, const StoneTruth& b, double share) {
-  return {mix(a.x_m, b.x_m, share), mix(a.y_m, b.y_m, share), mix(a.vx_mps, b.vx_mps, share),
-          mix(a.vy_mps, b.vy_mps, share), mix(a.spin_radps, b.spin_radps, share)};
+  return {mix(a.x_m, b.x_m, share),
+          mix(a.y_m, b.y_m, share),
+          mix(a.vx_mps, b.vx_mps, share),
+          mix(a.vy_mps, b.vy_mps, share),
+          mix(a.spin_radps, b.spin_radps, share),
+          mix(a.handle_rad, b.handle_rad, share)};
 }
 
 }  // namespace
