@@ -93,6 +93,8 @@ void WheelDrive::enter(Stage stage, Stamp now) {
   stage_ = stage;
   stage_since_ = now;
   stage_item_ = 0;
+  // A node that was left stopped answers no SDO.
+  if (stage == Stage::identify) outgoing_.push_back(nmt_frame(NmtCommand::enter_pre_operational, wheel_.node));
   if (stage == Stage::reset_communication) outgoing_.push_back(nmt_frame(NmtCommand::reset_communication, wheel_.node));
   if (stage == Stage::start) {
     outgoing_.push_back(nmt_frame(NmtCommand::start, wheel_.node));
@@ -106,9 +108,17 @@ void WheelDrive::enter(Stage stage, Stamp now) {
 void WheelDrive::fail(DeviceErrorKind kind, std::string what, Stamp now) {
   if (error_) return;
   error_ = DeviceError{kind, label_, std::move(what), now};
+  halt();
+}
+
+void WheelDrive::halt() {
   stage_ = Stage::failed;
   sdo_.cancel();
   outgoing_.clear();
+}
+
+void WheelDrive::abandon_boot() {
+  if (stage_ != Stage::operational) halt();
 }
 
 void WheelDrive::fail(const SdoResult& result, Stamp now) {

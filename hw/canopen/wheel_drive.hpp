@@ -39,6 +39,8 @@ class WheelDrive {
 
   /// Begins from the identity check, and forgets any error.
   void boot(Stamp now);
+  /// Gives up a boot in progress, without an error of its own: something else is wrong.
+  void abandon_boot();
   /// Any frame of the bus; others' are ignored.
   void on_frame(const StampedCanFrame& received, Stamp now);
   /// Boot progress, deadlines and plausibility.
@@ -67,6 +69,7 @@ class WheelDrive {
 
  private:
   void enter(Stage stage, Stamp now);
+  void halt();
   void fail(DeviceErrorKind kind, std::string what, Stamp now);
   void fail(const SdoResult& result, Stamp now);
 

@@ -48,7 +48,7 @@ std::optional<double> Rink::Wheel::axis_radps() const {
 Rink::Rink(const RinkConfig& config, Stamp start)
     : start_(start),
       clock_(start),
-      bus_(config.bus),
+      bus_(clock_, config.bus),
       program_can_(bus_.make_endpoint()),
       left_(config.left, config.scenario.drive, bus_.make_endpoint()),
       right_(config.right, config.scenario.drive, bus_.make_endpoint()),
@@ -66,7 +66,7 @@ void Rink::step(Duration span) {
 }
 
 void Rink::substep(Duration span) {
-  bus_.deliver(now());
+  bus_.deliver();
 
   const auto effects = modbus_.effects();
   clock_.advance(span);
@@ -78,7 +78,7 @@ void Rink::substep(Duration span) {
 
   left_.step(now(), seconds(span), truth().left_wheel_radps);
   right_.step(now(), seconds(span), truth().right_wheel_radps);
-  bus_.deliver(now());
+  bus_.deliver();
   modbus_.step(now());
   gyro_.step(now(), truth().twist.yaw_radps);
   history_.add(truth());
