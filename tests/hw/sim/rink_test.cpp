@@ -11,6 +11,7 @@
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "tests/hw/sim/reference_scenario.hpp"
+#include "tests/hw/sim/reference_wheels.hpp"
 
 namespace hogline::hw::sim {
 namespace {
@@ -18,28 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration period = 5ms;
-constexpr double gear = 20.0;
-constexpr double counts = 65536.0;
-constexpr double units = 600.0;
-
-WheelRig wheel_rig(std::uint8_t node, int direction) {
-  WheelRig rig;
-  rig.device.identity.node = node;
-  rig.device.identity.device_type = 0x00020192;
-  rig.device.identity.vendor_id = 0x2F1;
-  rig.device.identity.product_code = 0x402;
-  rig.device.identity.name = "simulated drive";
-  rig.device.axis.encoder_counts_per_rev = counts;
-  rig.device.axis.velocity_window_s = 0.005;
-  rig.device.position_counts_per_rev = counts;
-  rig.device.velocity_units_per_rps = units;
-  rig.device.acceleration_units_per_rps2 = units;
-  rig.device.switch_on_time_s = 0.02;
-  rig.gear_ratio = gear;
-  rig.direction = direction;
-  return rig;
-}
-
 WheelConfig wheel_config(const char* name, std::uint8_t node, int direction) {
   WheelConfig wheel;
   wheel.name = name;
@@ -47,10 +26,10 @@ WheelConfig wheel_config(const char* name, std::uint8_t node, int direction) {
   wheel.vendor_id = 0x2F1;
   wheel.product_code = 0x402;
   wheel.direction = direction;
-  wheel.gear_ratio = gear;
-  wheel.position_counts_per_motor_rev = counts;
-  wheel.velocity_units_per_motor_rps = units;
-  wheel.acceleration_units_per_motor_rps2 = units;
+  wheel.gear_ratio = wheel_gear;
+  wheel.position_counts_per_motor_rev = wheel_counts;
+  wheel.velocity_units_per_motor_rps = wheel_units;
+  wheel.acceleration_units_per_motor_rps2 = wheel_units;
   wheel.max_speed_radps = 45.0;
   wheel.quick_stop_radps2 = 25.0;
   return wheel;
