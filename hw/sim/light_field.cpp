@@ -71,7 +71,7 @@ LightField::LightField(const RayTable& rays, const vision::Intrinsics& intrinsic
     }
   }
   for (auto* plane : {&sx_, &sy_, &px_, &py_, &smear_x_, &smear_y_, &light_, &gloss_, &ax_, &ay_, &bx_, &by_,
-                      &unused_x_, &unused_y_}) {
+                      &unused_x_, &unused_y_, &descent_}) {
     plane->assign(rx_.size(), 0.0F);
   }
   on_ice_.assign(rx_.size(), 0);
@@ -79,10 +79,13 @@ LightField::LightField(const RayTable& rays, const vision::Intrinsics& intrinsic
 
 void LightField::look(const IceView& view, const IceView& begin, const IceView& end, bool moving) {
   const int n = static_cast<int>(rx_.size());
-  trace_ice(view, rx_.data(), ry_.data(), rz_.data(), n, sx_.data(), sy_.data(), px_.data(), py_.data());
+  trace_ice(view, rx_.data(), ry_.data(), rz_.data(), n, sx_.data(), sy_.data(), px_.data(), py_.data(),
+            descent_.data());
   if (moving) {
-    trace_ice(begin, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), ax_.data(), ay_.data());
-    trace_ice(end, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), bx_.data(), by_.data());
+    trace_ice(begin, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), ax_.data(), ay_.data(),
+              descent_.data());
+    trace_ice(end, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), bx_.data(), by_.data(),
+              descent_.data());
   }
   const IceBounds& ice = hall_.ice();
   const auto falloff = static_cast<float>(appearance_.falloff_per_m);

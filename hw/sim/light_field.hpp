@@ -43,7 +43,7 @@ class LightField {
   int across_;
   std::vector<float> rx_, ry_, rz_, vignette_;
   std::vector<float> sx_, sy_, px_, py_, smear_x_, smear_y_, light_, gloss_;
-  std::vector<float> ax_, ay_, bx_, by_, unused_x_, unused_y_;
+  std::vector<float> ax_, ay_, bx_, by_, unused_x_, unused_y_, descent_;
   std::vector<char> valid_, on_ice_;
 };
 
