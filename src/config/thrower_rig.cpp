@@ -193,7 +193,8 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
 void require_sections(const json& root, const Document& document) {
   for (const char* name : {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm"}) {
     if (!root.contains(name)) {
-      throw ConfigError(document.file, 0, name, "", "missing; a throw needs this section (see config/rigs/practice.yaml)");
+      throw ConfigError(document.file, 0, name, "",
+                        "missing; a throw needs this section (see config/rigs/practice.yaml)");
     }
   }
 }
@@ -202,10 +203,11 @@ void require_sections(const json& root, const Document& document) {
 void check_release(const servo::ReleaseConfig& r, const Document& document) {
   const double nearest_m = r.hog_distance_m - r.tolerance_m - r.stone_x_m;
   if (nearest_m < vision::rules::stone_radius_m) {
-    throw ConfigError(document.file, document.line_of("release"), "release", "",
-                      fmt::format("hog_distance_m - tolerance_m - stone_x_m is {:.3f}; must be at least {} (the stone's "
-                                  "centre must leave the jaws a radius before the hog line)",
-                                  nearest_m, vision::rules::stone_radius_m));
+    throw ConfigError(
+        document.file, document.line_of("release"), "release", "",
+        fmt::format("hog_distance_m - tolerance_m - stone_x_m is {:.3f}; must be at least {} (the stone's "
+                    "centre must leave the jaws a radius before the hog line)",
+                    nearest_m, vision::rules::stone_radius_m));
   }
 }
 
