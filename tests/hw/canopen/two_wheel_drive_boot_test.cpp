@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                   DeviceErrorKind::refused, "6061"},
         BootFault{"SDO falls silent while configuring",
                   [](DriveBench& b) {
-                    b.run_until([&b] { return b.drive.right().stage() == WheelDrive::Stage::configure; }, 1s);
+                    b.run_until([&b] { return b.drive.right().boot_stage() == WheelBoot::Stage::configure; }, 1s);
                     b.right.communication().faults.sdo_silent = true;
                   },
                   DeviceErrorKind::timeout, "no answer"},

@@ -87,6 +87,8 @@ TEST_P(TwoWheelDriveFault, IsDetectedInTimeAndStopsBothWheels) {
   // The healthy wheel by its quick stop; the other as far as it can still be reached.
   const auto right_stands = bench.run_until([&bench] { return std::abs(bench.wheel_radps(1)) < 0.2; }, 2s);
   ASSERT_TRUE(right_stands);
+  RecordProperty("detected_ms", static_cast<int>(*detected / 1ms));
+  RecordProperty("stopped_ms", static_cast<int>((*detected + *right_stands) / 1ms));
   EXPECT_LE(*right_stands, 900ms);
   EXPECT_LT(bench.fastest_radps, 20.5);
   if (GetParam().left_brakes) {
