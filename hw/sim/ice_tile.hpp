@@ -28,9 +28,9 @@ struct IceView {
 };
 
 /// Where `n` rays (in c) meet the surface, and the paint that they are refracted to (Snell). Rays at or above the
-/// horizon give points very far away.
+/// horizon give points very far away. `descent` is by how much a ray falls, in its own lengths.
 void trace_ice(const IceView& view, const float* rx, const float* ry, const float* rz, int n, float* surface_x,
-               float* surface_y, float* paint_x, float* paint_y);
+               float* surface_y, float* paint_x, float* paint_y, float* descent);
 
 /// How far the paint moves under a pixel during the exposure.
 struct Smear {
@@ -78,6 +78,8 @@ class IceTile {
   alignas(16) Pixels y_by_v_;
   alignas(16) Pixels sharp_x_;  ///< 1 / width of an edge across x, in 1/m
   alignas(16) Pixels sharp_y_;
+  alignas(16) Pixels shrink_x_;  ///< relative change of the ray's descent towards +x, in 1/m
+  alignas(16) Pixels shrink_y_;
   alignas(16) Pixels red_;
   alignas(16) Pixels green_;
   alignas(16) Pixels blue_;

@@ -107,12 +107,12 @@ struct SheetRenderer::Impl {
   void draw_strip(const Scene& scene, int j, Strip& strip, IceTile& tile) const;
   Reach reach(int i, int j) const;
   Colour ground(float x, float y) const;
-  bool paint_tile(const Scene& scene, int i, int j, const Reach& strip_reach, bool all_ice, IceTile& tile,
-                  Colour& plain) const;
+  bool paint_tile(const Scene& scene, int i, int j, IceTile& tile, Colour& plain) const;
   bool paint_houses(const Reach& at, IceTile& tile, bool dry_run) const;
   void lay_ice(int i, int j, const IceTile* tile, const Colour& plain, Strip& strip) const;
   bool lay_plain_hall(const Scene& scene, int i, int j, Strip& strip) const;
-  void lay_solids(const Scene& scene, int i, int j, const std::vector<const Seen*>& near, bool with_hall, Strip& strip) const;
+  void lay_solids(const Scene& scene, int i, int j, const std::vector<const Seen*>& near, bool with_hall,
+                  Strip& strip) const;
   Ray ray_at(const Scene& scene, const Eigen::Vector3f& c) const;
 
   vision::Lens lens;
@@ -216,9 +216,8 @@ bool SheetRenderer::Impl::paint_houses(const Reach& at, IceTile& tile, bool dry_
 }
 
 // True: the tile's pixels differ. False: it is all of the colour `plain`.
-bool SheetRenderer::Impl::paint_tile(const Scene& scene, int i, int j, const Reach& strip_reach, bool all_ice,
-                                     IceTile& tile, Colour& plain) const {
-  const Reach at = all_ice ? reach(i, j) : strip_reach;
+bool SheetRenderer::Impl::paint_tile(const Scene& scene, int i, int j, IceTile& tile, Colour& plain) const {
+  const Reach at = reach(i, j);
   const bool rings = paint_houses(at, tile, true);
   const auto seen = [&at](float margin) { return [&at, margin](const PaintedRect& r) { return at.meets(r, margin); }; };
   const auto dark = [&at](const StoneLook& s) {
@@ -231,10 +230,11 @@ bool SheetRenderer::Impl::paint_tile(const Scene& scene, int i, int j, const Rea
   const bool shaded = std::any_of(scene.stones.begin(), scene.stones.end(), dark);
   const std::size_t a = field.corner(i, j), b = field.corner(i + 1, j + 1);
   plain = ground(0.5F * (field.paint_x(a) + field.paint_x(b)), 0.5F * (field.paint_y(a) + field.paint_y(b)));
-  if (all_ice && !rings && !lines && !raised && !shaded) return false;
+  if (!rings && !lines && !raised && !shaded) return false;
 
   const Smear sa = field.smear(a), sb = field.smear(b);
-  tile.aim(scene.view, rays, i * tile_w, j * tile_h, {0.5F * (sa.x_m + sb.x_m), 0.5F * (sa.y_m + sb.y_m)}, edge_variance);
+  tile.aim(scene.view, rays, i * tile_w, j * tile_h, {0.5F * (sa.x_m + sb.x_m), 0.5F * (sa.y_m + sb.y_m)},
+           edge_variance);
   tile.fill(rings ? rink.sheet.ice : plain);
   if (rings) paint_houses(at, tile, false);
   const auto draw = [&](const PaintedRect& r, bool on_surface) {
@@ -306,9 +306,10 @@ bool SheetRenderer::Impl::lay_plain_hall(const Scene& scene, int i, int j, Strip
     views[static_cast<std::size_t>(k)] = *view;
     middle += 0.25F * corner_ray(k);
   }
-  for (const Eigen::Vector3f& inner :
-       {middle, Eigen::Vector3f(0.5F * (corner_ray(0) + corner_ray(1))), Eigen::Vector3f(0.5F * (corner_ray(2) + corner_ray(3))),
-        Eigen::Vector3f(0.5F * (corner_ray(0) + corner_ray(2))), Eigen::Vector3f(0.5F * (corner_ray(1) + corner_ray(3)))}) {
+  for (const Eigen::Vector3f& inner : {middle, Eigen::Vector3f(0.5F * (corner_ray(0) + corner_ray(1))),
+                                       Eigen::Vector3f(0.5F * (corner_ray(2) + corner_ray(3))),
+                                       Eigen::Vector3f(0.5F * (corner_ray(0) + corner_ray(2))),
+                                       Eigen::Vector3f(0.5F * (corner_ray(1) + corner_ray(3)))}) {
     const auto view = hall.look(ray_at(scene, inner));
     if (!view || view->material != views[0].material) return false;
   }
@@ -330,8 +331,8 @@ bool SheetRenderer::Impl::lay_plain_hall(const Scene& scene, int i, int j, Strip
 }
 
 // Solids and hall over the ice: looked at along the rays between the pixels, each pixel the mean of its four.
-void SheetRenderer::Impl::lay_solids(const Scene& scene, int i, int j, const std::vector<const Seen*>& near, bool with_hall,
-                                     Strip& strip) const {
+void SheetRenderer::Impl::lay_solids(const Scene& scene, int i, int j, const std::vector<const Seen*>& near,
+                                     bool with_hall, Strip& strip) const {
   struct Sample {
     float red, green, blue, solid;
   };
@@ -340,7 +341,9 @@ void SheetRenderer::Impl::lay_solids(const Scene& scene, int i, int j, const std
   for (int y = 0; y <= tile_h; ++y) {
     for (int x = 0; x <= tile_w; ++x) {
       const int u = i * tile_w + x - 1, v = j * tile_h + y - 1;
-      const auto mean = [](const float* top, const float* bottom) { return 0.25F * (top[0] + top[1] + bottom[0] + bottom[1]); };
+      const auto mean = [](const float* top, const float* bottom) {
+        return 0.25F * (top[0] + top[1] + bottom[0] + bottom[1]);
+      };
       const Ray ray = ray_at(scene, {mean(rays.x(u, v), rays.x(u, v + 1)), mean(rays.y(u, v), rays.y(u, v + 1)),
                                      mean(rays.z(u, v), rays.z(u, v + 1))});
       std::optional<Hit> nearest;
@@ -352,8 +355,9 @@ void SheetRenderer::Impl::lay_solids(const Scene& scene, int i, int j, const std
         if (const auto view = hall.look(ray)) nearest = Hit{0.0F, view->colour};
       }
       samples[static_cast<std::size_t>(y * (tile_w + 1) + x)] =
-          nearest ? Sample{light * nearest->colour.red, light * nearest->colour.green, light * nearest->colour.blue, 1.0F}
-                  : Sample{0.0F, 0.0F, 0.0F, 0.0F};
+          nearest
+              ? Sample{light * nearest->colour.red, light * nearest->colour.green, light * nearest->colour.blue, 1.0F}
+              : Sample{0.0F, 0.0F, 0.0F, 0.0F};
     }
   }
   for (int y = 0; y < tile_h; ++y) {
@@ -383,8 +387,8 @@ void SheetRenderer::Impl::draw_strip(const Scene& scene, int j, Strip& strip, Ic
     const bool hall_only = on_ice == 0;
     const bool hall_laid = hall_only && lay_plain_hall(scene, i, j, strip);
     if (!hall_laid) {
-      Colour plain;
-      const bool varied = paint_tile(scene, i, j, Reach{}, on_ice == 4, tile, plain);
+      Colour plain = rink.sheet.ice;
+      const bool varied = !hall_only && paint_tile(scene, i, j, tile, plain);
       lay_ice(i, j, varied ? &tile : nullptr, plain, strip);
     }
 
@@ -426,12 +430,22 @@ void SheetRenderer::render(const Exposure& exposure, std::uint64_t frame_seed, c
   const auto& size = impl_->lens.intrinsics();
   bgr.create(size.height_px, size.width_px, CV_8UC3);
   impl_->draw(exposure, [&](int first_row, int rows, Strip& strip) {
-    thread_local std::vector<std::uint16_t> scratch;
+    thread_local std::vector<std::int32_t> scratch;
     for (int y = 0; y < rows; ++y) {
       impl_->sensor.expose(strip.row(0, y), strip.row(1, y), strip.row(2, y), frame_seed, first_row + y,
                            bgr.ptr<std::uint8_t>(first_row + y), scratch);
     }
   });
+}
+
+void SheetRenderer::render_darkness(double light, std::uint64_t frame_seed, cv::Mat& bgr) const {
+  const auto& size = impl_->lens.intrinsics();
+  bgr.create(size.height_px, size.width_px, CV_8UC3);
+  const std::vector<float> row(static_cast<std::size_t>(size.width_px), static_cast<float>(light));
+  std::vector<std::int32_t> scratch;
+  for (int y = 0; y < size.height_px; ++y) {
+    impl_->sensor.expose(row.data(), row.data(), row.data(), frame_seed, y, bgr.ptr<std::uint8_t>(y), scratch);
+  }
 }
 
 void SheetRenderer::render_light(const Exposure& exposure, cv::Mat& bgr) const {
