@@ -120,15 +120,19 @@ double Canvas::text_width_px(const std::string& words, double height_px) {
   return size.width * height_px / (capitals_at_scale_1_px * fine);
 }
 
-void Canvas::text(const Eigen::Vector2d& at, const std::string& words, double height_px, const Ink& ink, Anchor anchor,
-                  bool bold) {
+void Canvas::text(const Eigen::Vector2d& at, const std::string& words, double height_px, const Ink& ink,
+                  const TextStyle& style) {
   if (!drawable(at)) return;
   const double width = text_width_px(words, height_px);
-  const double back = anchor == Anchor::left ? 0.0 : anchor == Anchor::centre ? 0.5 * width : width;
+  const double back = style.anchor == Anchor::left ? 0.0 : style.anchor == Anchor::centre ? 0.5 * width : width;
   const cv::Point corner(static_cast<int>(std::lround((at.x() - back) * oversampling_)),
                          static_cast<int>(std::lround(at.y() * oversampling_)));
   const double scale = height_px * oversampling_ / capitals_at_scale_1_px;
-  const double stroke = height_px * (bold ? 0.16 : 0.09);
+  const double stroke = height_px * (style.bold ? 0.13 : 0.075);
+  if (style.halo) {
+    const int border = thickness(stroke + 0.4 * height_px);
+    cv::putText(sheet_, words, corner, font, scale, colour(*style.halo), border, cv::LINE_AA);
+  }
   cv::putText(sheet_, words, corner, font, scale, colour(ink), thickness(stroke), cv::LINE_AA);
 }
 
@@ -139,7 +143,7 @@ void Canvas::upright_text(const Eigen::Vector2d& at, const std::string& words, d
   cv::Mat lying(height, width, CV_8UC1, cv::Scalar(0));
   const double scale = height_px * oversampling_ / capitals_at_scale_1_px;
   cv::putText(lying, words, {4 * oversampling_, static_cast<int>(1.5 * height_px * oversampling_)}, font, scale,
-              cv::Scalar(255), thickness(0.09 * height_px), cv::LINE_AA);
+              cv::Scalar(255), thickness(0.075 * height_px), cv::LINE_AA);
   cv::Mat standing;
   cv::rotate(lying, standing, cv::ROTATE_90_COUNTERCLOCKWISE);
   const cv::Rect wanted(static_cast<int>(std::lround(at.x() * oversampling_)) - height / 2,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ inline constexpr Ink yellow{245, 200, 20};
 
 enum class Anchor { left, centre, right };
 
+struct TextStyle {
+  Anchor anchor = Anchor::left;
+  bool bold = false;
+  std::optional<Ink> halo;  ///< a border around the letters, to be read over anything
+};
+
 /// Coordinates are in pixels of the finished picture, x right, y down, pixel centres at integers. What is not finite or
 /// further than a million pixels away is not drawn.
 class Canvas {
@@ -53,7 +60,7 @@ class Canvas {
 
   /// Text with its capitals `height_px` high, its baseline starting, centred or ending at `at`. ASCII only.
   void text(const Eigen::Vector2d& at, const std::string& words, double height_px, const Ink& ink,
-            Anchor anchor = Anchor::left, bool bold = false);
+            const TextStyle& style = {});
   /// Text from the bottom to the top, centred at `at`.
   void upright_text(const Eigen::Vector2d& at, const std::string& words, double height_px, const Ink& ink);
   static double text_width_px(const std::string& words, double height_px);

@@ -58,7 +58,7 @@ void draw_panel(Canvas& canvas, const std::string& title, const SheetPosePercept
 
   const double x = 2.1 * unit;
   double y = 3.4 * unit;
-  canvas.text({x, y}, title, 1.25 * unit, percept.ok ? model_ink : point_ink, Anchor::left, true);
+  canvas.text({x, y}, title, 1.25 * unit, percept.ok ? model_ink : point_ink, {Anchor::left, true, {}});
   y += 0.4 * unit;
   for (const auto& line : lines) canvas.text({x, y += step}, line, unit, panel_text);
   y += 0.6 * unit;
@@ -89,9 +89,9 @@ void draw_point(Canvas& canvas, const Eigen::Vector2d& at, const std::string& na
   canvas.circle(at, 1.0 * unit, point_ink, 2.0);
   const Eigen::Vector2d beside = at + Eigen::Vector2d(1.3 * unit, -0.9 * unit);
   for (const auto& [dx, dy] : {std::pair{-1.5, 0.0}, {1.5, 0.0}, {0.0, -1.5}, {0.0, 1.5}}) {
-    canvas.text(beside + Eigen::Vector2d(dx, dy), name, 1.2 * unit, panel_ink, Anchor::left, true);
+    canvas.text(beside + Eigen::Vector2d(dx, dy), name, 1.2 * unit, panel_ink, {Anchor::left, true, {}});
   }
-  canvas.text(beside, name, 1.2 * unit, ring_ink, Anchor::left, true);
+  canvas.text(beside, name, 1.2 * unit, ring_ink, {Anchor::left, true, {}});
 }
 
 double unit_of(const Canvas& canvas) { return std::max(6.0, canvas.size().width / 1600.0 * 13.0); }

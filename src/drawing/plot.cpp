@@ -23,6 +23,7 @@ struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool empty() const { return !(low <= high); }
+  bool holds(double v) const { return v >= low && v <= high; }
   void include(double v) {
     low = std::min(low, v);
     high = std::max(high, v);
@@ -92,20 +93,21 @@ void draw_frame(Canvas& canvas, const Plot& plot, const Axes& axes) {
   for (const double v : xs) {
     const Eigen::Vector2d foot = axes.at(v, axes.y.low);
     canvas.line(foot, axes.at(v, axes.y.high), inks::grid, 1.0);
-    canvas.text(foot + Eigen::Vector2d(0.0, 16.0), number(v, step_x), tick_px, inks::text, Anchor::centre);
+    canvas.text(foot + Eigen::Vector2d(0.0, 16.0), number(v, step_x), tick_px, inks::text, {Anchor::centre, false, {}});
   }
   for (const double v : ys) {
     const Eigen::Vector2d foot = axes.at(axes.x.low, v);
     const bool zero = std::abs(v) < 1e-9 * step_y;
     canvas.line(foot, axes.at(axes.x.high, v), zero ? inks::faint : inks::grid, 1.0);
-    canvas.text(foot + Eigen::Vector2d(-8.0, 0.5 * tick_px), number(v, step_y), tick_px, inks::text, Anchor::right);
+    canvas.text(foot + Eigen::Vector2d(-8.0, 0.5 * tick_px), number(v, step_y), tick_px, inks::text,
+                {Anchor::right, false, {}});
   }
   canvas.line(axes.corner, {axes.opposite.x(), axes.corner.y()}, inks::faint, 1.0);
   canvas.line(axes.corner, {axes.corner.x(), axes.opposite.y()}, inks::faint, 1.0);
   canvas.text({0.5 * (axes.corner.x() + axes.opposite.x()), axes.corner.y() + 36.0}, plot.x_label, label_px, inks::text,
-              Anchor::centre);
+              {Anchor::centre, false, {}});
   canvas.upright_text({14.0, 0.5 * (axes.corner.y() + axes.opposite.y())}, plot.y_label, label_px, inks::text);
-  canvas.text({axes.corner.x(), 20.0}, plot.title, title_px, inks::text, Anchor::left, true);
+  canvas.text({axes.corner.x(), 20.0}, plot.title, title_px, inks::text, {Anchor::left, true, {}});
 }
 
 void draw_sample(Canvas& canvas, const Series& s, const Eigen::Vector2d& at) {
@@ -127,17 +129,24 @@ void draw_legend(Canvas& canvas, const Plot& plot, const Axes& axes) {
   }
 }
 
-void draw_marks(Canvas& canvas, const Plot& plot, const Axes& axes) {
+void draw_mark_lines(Canvas& canvas, const Plot& plot, const Axes& axes) {
   for (const PlotMark& mark : plot.marks) {
-    if (!(mark.x >= axes.x.low && mark.x <= axes.x.high)) continue;
+    if (!axes.x.holds(mark.x)) continue;
     canvas.poly_line({axes.at(mark.x, axes.y.low), axes.at(mark.x, axes.y.high)}, inks::faint, 1.0, 4.0);
-    const bool at_the_end = mark.x > axes.x.low + 0.8 * (axes.x.high - axes.x.low);
-    canvas.text(axes.at(mark.x, axes.y.high) + Eigen::Vector2d(at_the_end ? -5.0 : 5.0, 11.0), mark.name, tick_px,
-                inks::faint, at_the_end ? Anchor::right : Anchor::left);
   }
 }
 
-// Limited to the frame: a value outside it ends the line at a place outside, which is cut off at the frame.
+void draw_mark_names(Canvas& canvas, const Plot& plot, const Axes& axes) {
+  for (const PlotMark& mark : plot.marks) {
+    if (!axes.x.holds(mark.x)) continue;
+    const bool at_the_end = mark.x > axes.x.low + 0.8 * (axes.x.high - axes.x.low);
+    const Eigen::Vector2d beside(at_the_end ? -6.0 : 6.0, -7.0);
+    canvas.text(axes.at(mark.x, axes.y.low) + beside, mark.name, tick_px, inks::text,
+                {at_the_end ? Anchor::right : Anchor::left, false, inks::paper});
+  }
+}
+
+// Values outside the frame are left out.
 void draw_series(Canvas& canvas, const Series& s, const Axes& axes) {
   std::vector<Eigen::Vector2d> places;
   const Eigen::Vector2d gap = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -181,11 +190,12 @@ cv::Mat draw_plot(const Plot& plot, cv::Size size) {
                   {size.width - right_px, top_px}};
 
   draw_frame(canvas, plot, axes);
-  draw_marks(canvas, plot, axes);
+  draw_mark_lines(canvas, plot, axes);
   for (const Series& s : plot.series) draw_series(canvas, s, axes);
+  draw_mark_names(canvas, plot, axes);
   draw_legend(canvas, plot, axes);
   if (data.x.empty())
-    canvas.text(0.5 * (axes.corner + axes.opposite), "no data", title_px, inks::faint, Anchor::centre);
+    canvas.text(0.5 * (axes.corner + axes.opposite), "no data", title_px, inks::faint, {Anchor::centre, false, {}});
   return canvas.picture();
 }
 

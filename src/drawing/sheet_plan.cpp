@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hogline::drawing {
@@ -21,6 +22,7 @@ constexpr double label_px = 9.0;
 constexpr double head_px = 48.0;  // title and legend
 constexpr double foot_px = 26.0;  // the scale
 constexpr double side_px = 14.0;
+constexpr double scale_px = 34.0;  // beside a tall sheet: the numbers
 constexpr double beside_m = 0.25;  // shown beyond the sidelines
 
 // From metres in e to the picture.
@@ -58,7 +60,7 @@ Layout layout_of(const SheetPlan& plan, int length_px) {
     return {{length_px, static_cast<int>(std::ceil(across_px + head_px + foot_px))},
             {plan.direction, scale, {side_px, head_px + 0.5 * across_px}, plan.from_y_m}};
   }
-  const double width = std::max(across_px + 2.0 * side_px, 300.0);
+  const double width = std::max(across_px + 2.0 * scale_px, 300.0);
   return {{static_cast<int>(std::ceil(width)), length_px},
           {plan.direction, scale, {0.5 * width, length_px - foot_px}, plan.from_y_m}};
 }
@@ -109,12 +111,32 @@ void draw_scale(Canvas& canvas, const SheetPlan& plan, const Map& map) {
     if (plan.direction == ThrowDirection::right) {
       canvas.line(edge, edge + Eigen::Vector2d(0.0, 4.0), inks::faint, 1.0);
       canvas.text(edge + Eigen::Vector2d(0.0, 16.0), number + (y == 0.0 ? " m from the tee" : ""), 8.0, inks::text,
-                  y == 0.0 ? Anchor::left : Anchor::centre);
+                  {y == 0.0 ? Anchor::left : Anchor::centre, false, {}});
     } else {
       canvas.line(edge, edge - Eigen::Vector2d(4.0, 0.0), inks::faint, 1.0);
-      canvas.text(edge + Eigen::Vector2d(-7.0, 4.0), number, 8.0, inks::text, Anchor::right);
+      canvas.text(edge + Eigen::Vector2d(-7.0, 4.0), number, 8.0, inks::text, {Anchor::right, false, {}});
     }
   }
+}
+
+// The part of a track between two places along the sheet.
+std::vector<Eigen::Vector2d> within(const std::vector<Eigen::Vector2d>& track, double from, double to) {
+  std::vector<Eigen::Vector2d> part;
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    const Eigen::Vector2d& a = track[i - 1];
+    const Eigen::Vector2d step = track[i] - a;
+    const double t0 = step.y() == 0.0 ? 0.0 : std::min((from - a.y()) / step.y(), (to - a.y()) / step.y());
+    const double t1 = step.y() == 0.0 ? 1.0 : std::max((from - a.y()) / step.y(), (to - a.y()) / step.y());
+    const double begin = std::max(0.0, t0);
+    const double end = std::min(1.0, t1);
+    const bool seen =
+        begin < end && a.y() + 0.5 * (begin + end) * step.y() >= from && a.y() + 0.5 * (begin + end) * step.y() <= to;
+    if (!seen) continue;  // also where a point is not finite
+    part.push_back(a + begin * step);
+    part.push_back(a + end * step);
+    part.push_back(Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return part;
 }
 
 void draw_stone(Canvas& canvas, const PlanStone& stone, const Map& map) {
@@ -127,7 +149,8 @@ void draw_stone(Canvas& canvas, const PlanStone& stone, const Map& map) {
   if (radius >= 7.0) canvas.line(at - half, at + half, inks::paper, std::max(1.5, 0.22 * radius));
   if (stone.ringed) canvas.circle(at, radius + 2.5, inks::text, 1.2);
   if (!stone.label.empty())
-    canvas.text(at + Eigen::Vector2d(radius + 6.0, 0.5 * label_px), stone.label, label_px, inks::text);
+    canvas.text(at + Eigen::Vector2d(radius + 6.0, 0.5 * label_px), stone.label, label_px, inks::text,
+                {Anchor::left, false, inks::paper});
 }
 
 void draw_ellipse(Canvas& canvas, const PlanEllipse& ellipse, const Map& map) {
@@ -149,11 +172,11 @@ void draw_mark(Canvas& canvas, const PlanMark& mark, const Map& map) {
   const Eigen::Vector2d at = map.at(mark.place_m);
   canvas.circle(at, 5.0, mark.ink, 1.6);
   canvas.disc(at, 1.8, mark.ink);
-  canvas.text(at + Eigen::Vector2d(9.0, -7.0), mark.name, label_px, mark.ink, Anchor::left, true);
+  canvas.text(at + Eigen::Vector2d(9.0, -7.0), mark.name, label_px, mark.ink, {Anchor::left, true, inks::paper});
 }
 
 void draw_head(Canvas& canvas, const SheetPlan& plan) {
-  canvas.text({side_px, 19.0}, plan.title, title_px, inks::text, Anchor::left, true);
+  canvas.text({side_px, 19.0}, plan.title, title_px, inks::text, {Anchor::left, true, {}});
   double x = side_px;
   for (const PlanTrack& track : plan.tracks) {
     if (track.name.empty()) continue;
@@ -175,10 +198,16 @@ cv::Mat draw_sheet_plan(const SheetPlan& plan, int length_px) {
   draw_scale(canvas, plan, layout.map);
   for (const PlanEllipse& ellipse : plan.ellipses) draw_ellipse(canvas, ellipse, layout.map);
   for (const PlanTrack& track : plan.tracks) {
-    canvas.poly_line(layout.map.all(track.points_m), track.ink, 2.0, track.dashed ? 6.0 : 0.0);
+    canvas.poly_line(layout.map.all(within(track.points_m, plan.from_y_m, plan.to_y_m)), track.ink, 2.0,
+                     track.dashed ? 6.0 : 0.0);
   }
-  for (const PlanStone& stone : plan.stones) draw_stone(canvas, stone, layout.map);
-  for (const PlanMark& mark : plan.marks) draw_mark(canvas, mark, layout.map);
+  const auto shown = [&plan](const Eigen::Vector2d& p) { return p.y() >= plan.from_y_m && p.y() <= plan.to_y_m; };
+  for (const PlanStone& stone : plan.stones) {
+    if (shown(stone.place_m)) draw_stone(canvas, stone, layout.map);
+  }
+  for (const PlanMark& mark : plan.marks) {
+    if (shown(mark.place_m)) draw_mark(canvas, mark, layout.map);
+  }
   draw_head(canvas, plan);
   return canvas.picture();
 }
