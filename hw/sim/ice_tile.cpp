@@ -91,38 +91,36 @@ void IceTile::aim(const IceView& view, const RayTable& rays, int u, int v, const
 
   smear_ = smear;
   spread_ = profile_variance * edge_variance;
-  const float more_x = profile_variance / box_variance * smear.x_m * smear.x_m;
-  const float more_y = profile_variance / box_variance * smear.y_m * smear.y_m;
+  x_is_sharp_ = y_is_sharp_ = false;
   for (int j = 0; j < height; ++j) {
-    const float* X = &px[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* Y = &py[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* SX = &sx[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* SY = &sy[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* D = &descent[static_cast<std::size_t>((j + 1) * grid_width + 1)];
+    const auto first = static_cast<std::size_t>((j + 1) * grid_width + 1);
+    const float* X = &px[first];
+    const float* Y = &py[first];
+    const float* D = &descent[first];
     const auto row = static_cast<std::size_t>(j * width);
     for (int i = 0; i < width; ++i) {
       const std::size_t k = row + static_cast<std::size_t>(i);
-      const float xu = 0.5F * (X[i + 1] - X[i - 1]);
-      const float xv = 0.5F * (X[i + grid_width] - X[i - grid_width]);
-      const float yu = 0.5F * (Y[i + 1] - Y[i - 1]);
-      const float yv = 0.5F * (Y[i + grid_width] - Y[i - grid_width]);
       x_[k] = X[i];
       y_[k] = Y[i];
-      surface_x_[k] = SX[i];
-      surface_y_[k] = SY[i];
-      x_by_u_[k] = xu;
-      x_by_v_[k] = xv;
-      y_by_u_[k] = yu;
-      y_by_v_[k] = yv;
-      const float du = 0.5F * (D[i + 1] - D[i - 1]) / D[i];
-      const float dv = 0.5F * (D[i + grid_width] - D[i - grid_width]) / D[i];
-      const float x2 = xu * xu + xv * xv;
-      const float y2 = yu * yu + yv * yv;
-      sharp_x_[k] = 1.0F / std::sqrt(spread_ * x2 + more_x);
-      sharp_y_[k] = 1.0F / std::sqrt(spread_ * y2 + more_y);
-      shrink_x_[k] = (du * xu + dv * xv) / (x2 + tiny);
-      shrink_y_[k] = (du * yu + dv * yv) / (y2 + tiny);
+      surface_x_[k] = sx[first + static_cast<std::size_t>(i)];
+      surface_y_[k] = sy[first + static_cast<std::size_t>(i)];
+      x_by_u_[k] = 0.5F * (X[i + 1] - X[i - 1]);
+      x_by_v_[k] = 0.5F * (X[i + grid_width] - X[i - grid_width]);
+      y_by_u_[k] = 0.5F * (Y[i + 1] - Y[i - 1]);
+      y_by_v_[k] = 0.5F * (Y[i + grid_width] - Y[i - grid_width]);
+      const float by_descent = 0.5F / D[i];
+      fall_by_u_[k] = by_descent * (D[i + 1] - D[i - 1]);
+      fall_by_v_[k] = by_descent * (D[i + grid_width] - D[i - grid_width]);
     }
+  }
+}
+
+void IceTile::sharpen(const Pixels& by_u, const Pixels& by_v, float smear_m, Pixels& sharp, Pixels& shrink) const {
+  const float more = profile_variance / box_variance * smear_m * smear_m;
+  for (std::size_t k = 0; k < size; ++k) {
+    const float slope2 = by_u[k] * by_u[k] + by_v[k] * by_v[k];
+    sharp[k] = 1.0F / std::sqrt(spread_ * slope2 + more);
+    shrink[k] = (fall_by_u_[k] * by_u[k] + fall_by_v_[k] * by_v[k]) / (slope2 + tiny);
   }
 }
 
@@ -161,6 +159,8 @@ void IceTile::paint_rect(const PaintedRect& rect, bool on_surface, bool ends_in_
   const Pixels& x = on_surface ? surface_x_ : x_;
   const Pixels& y = on_surface ? surface_y_ : y_;
   if (ends_in_x) {
+    if (!x_is_sharp_) sharpen(x_by_u_, x_by_v_, smear_.x_m, sharp_x_, shrink_x_);
+    x_is_sharp_ = true;
     const float phase = 1.0F / rect.wavelength_m;
     for (std::size_t k = 0; k < size; ++k) {
       const float at = x[k] - rect.sway_m * wave(y[k] * phase);
@@ -169,6 +169,8 @@ void IceTile::paint_rect(const PaintedRect& rect, bool on_surface, bool ends_in_
     }
   }
   if (ends_in_y) {
+    if (!y_is_sharp_) sharpen(y_by_u_, y_by_v_, smear_.y_m, sharp_y_, shrink_y_);
+    y_is_sharp_ = true;
     for (std::size_t k = 0; k < size; ++k) {
       coverage[k] *= step(widths(y[k] - rect.y0_m, sharp_y_[k], shrink_y_[k])) -
                      step(widths(y[k] - rect.y1_m, sharp_y_[k], shrink_y_[k]));

@@ -67,6 +67,7 @@ class IceTile {
   using Pixels = std::array<float, size>;
 
   void blend(const Pixels& coverage, const Colour& colour);
+  void sharpen(const Pixels& by_u, const Pixels& by_v, float smear_m, Pixels& sharp, Pixels& shrink) const;
 
   alignas(16) Pixels x_;  ///< the paint under a pixel's centre
   alignas(16) Pixels y_;
@@ -76,6 +77,8 @@ class IceTile {
   alignas(16) Pixels x_by_v_;
   alignas(16) Pixels y_by_u_;
   alignas(16) Pixels y_by_v_;
+  alignas(16) Pixels fall_by_u_;  ///< relative change of the ray's descent from pixel to pixel
+  alignas(16) Pixels fall_by_v_;
   alignas(16) Pixels sharp_x_;  ///< 1 / width of an edge across x, in 1/m
   alignas(16) Pixels sharp_y_;
   alignas(16) Pixels shrink_x_;  ///< relative change of the ray's descent towards +x, in 1/m
@@ -85,6 +88,8 @@ class IceTile {
   alignas(16) Pixels blue_;
   Smear smear_;
   float spread_ = 1.0F;
+  bool x_is_sharp_ = false;  ///< sharp_x_ and shrink_x_ are worked out
+  bool y_is_sharp_ = false;
 };
 
 }  // namespace hogline::hw::sim
