@@ -30,6 +30,7 @@ struct Start {
   PlanarPose body;
   std::optional<double> width_m;
   double search_px;
+  double lean_rad = 0.0;
 };
 
 }  // namespace
@@ -76,10 +77,11 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
 
-  const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction));
+  const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen = impl_->refine(image, {shapes[i].body, shapes[i].width_m, 12.0}, stamp, sketch);
+    const SheetPosePercept seen =
+        impl_->refine(image, {shapes[i].body, shapes[i].width_m, 12.0, shapes[i].lean_rad}, stamp, sketch);
     if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
     if (seen.ok) return seen;
     if (i == 0) nothing.reason = seen.reason;
@@ -113,17 +115,17 @@ CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {
 
 HKnowledge LowView::Impl::knowledge(const LowViewPrediction& prediction) const {
   HKnowledge known;
-  known.width_m = prediction.sheet_width_m.value_or(setup.sheet.width_m);
-  known.width_sigma_m = prediction.sheet_width_m ? 0.03 : 0.3;
+  known.width_m = prediction.sheet_width_m;
   known.body = prediction.body;
   known.body_sigma = prediction.body_sigma;
-  known.camera_height_m = setup.mount.z_m;
   return known;
 }
 
 SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch) {
   SheetFitStart fit_start;
-  fit_start.eMc = eMb(start.body) * bMc(setup.mount);
+  Mount mount = setup.mount;
+  mount.pitch_rad += start.lean_rad;
+  fit_start.eMc = eMb(start.body) * bMc(mount);
   fit_start.search_px = start.search_px;
   fit_start.sheet_width_m = start.width_m;
   fit_start.pitch_sigma_rad = pitch_sigma_rad;

@@ -15,6 +15,7 @@ constexpr int fewest_supporters = 14;
 constexpr double supporter_px = 2.0;
 constexpr double least_contrast = 0.18;  // a black line of 0.0127 m takes away as much light as 0.125 of a hog line
 constexpr double width_tolerance = 0.3;
+constexpr double least_evidence = 10.0;  // tens of thousands of lines are tried: by chance one reaches 4 or 5
 
 // The foot frame: `across` per metre ahead and the inverse of metres ahead of the camera. Straight lines on the ice are
 // straight in it, and its errors are pixels everywhere.
@@ -39,7 +40,7 @@ class Search {
  public:
   Search(const std::vector<HogRidge>& ridges, const HogRidgeFinder& finder, const GroundView& view,
          const CrossRange& range)
-      : ridges_(ridges), finder_(finder), view_(view), range_(range), foot_(view.gMc().translation().head<2>()) {
+      : ridges_(ridges), finder_(finder), range_(range), foot_(view.gMc().translation().head<2>()) {
     within_ = supporter_px / (view.setup().intrinsics.fy_px * view.gMc().translation().z());
     yaws_ = 1 + static_cast<int>(std::lround((range.max_yaw_rad - range.min_yaw_rad) / yaw_step_rad));
     logs_ = 2 + static_cast<int>(std::log(std::max(range.max_distance_m - foot_.y(), 2.0 * nearest_m) / nearest_m) /
@@ -49,6 +50,7 @@ class Search {
       const Eigen::Vector2d g = r.ice - foot_;
       points_.push_back({g.x() / g.y(), 1.0 / g.y()});
     }
+    taken_.assign(points_.size(), false);
   }
 
   void vote() {
@@ -89,11 +91,12 @@ class Search {
   // Tukey-weighted least squares of q over s, closing in on the line.
   bool refine(Line& line) const {
     for (const double wide : {4.0, 2.0, 1.0, 1.0}) {
-      const double limit = wide * within_ + (wide > 1.0 ? 0.01 * wide / line.distance_m : 0.0);
+      const double slack = wide > 1.0 ? 0.01 * wide / line.distance_m : 0.0;
       double w0 = 0.0, ws = 0.0, wss = 0.0, wq = 0.0, wsq = 0.0;
       for (std::size_t i = 0; i < points_.size(); ++i) {
+        const double limit = wide * tolerance(points_[i]) + slack;
         const double u = (points_[i].q - line.q_at(points_[i].s)) / limit;
-        if (std::abs(u) >= 1.0) continue;
+        if (taken_[i] || std::abs(u) >= 1.0) continue;
         const double w = (1.0 - u * u) * (1.0 - u * u) * ridges_[i].strength;
         w0 += w;
         ws += w * points_[i].s;
@@ -113,23 +116,17 @@ class Search {
   }
 
   CrossCandidate describe(const Line& line) const {
-    std::vector<double> contrasts;
-    std::vector<double> widths;
-    std::vector<double> xs;
-    std::vector<bool> seen(static_cast<std::size_t>(finder_.blocks()), false);
-    int inside = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const std::size_t block = static_cast<std::size_t>(ridges_[i].column);
-      if (std::abs(points_[i].q - line.q_at(points_[i].s)) > within_ || seen[block]) continue;
-      seen[block] = true;
-      contrasts.push_back(ridges_[i].contrast);
-      xs.push_back(ridges_[i].ice.x());
-      if (ridges_[i].width_m > 0.0) widths.push_back(ridges_[i].width_m);
-      inside += std::abs(ridges_[i].ice.x()) < half_narrowest_m ? 1 : 0;
-    }
     CrossCandidate c;
     c.yaw_rad = line.yaw_rad;
     c.distance_m = line.distance_m + foot_.dot(c.normal());
+    std::vector<double> widths;
+    std::vector<double> contrasts;
+    std::vector<double> xs;
+    for (const std::size_t i : supporters_of(line)) {
+      contrasts.push_back(ridges_[i].contrast);
+      xs.push_back(ridges_[i].ice.x());
+      if (ridges_[i].width_m > 0.0) widths.push_back(ridges_[i].width_m);
+    }
     c.supporters = static_cast<int>(xs.size());
     if (xs.empty()) return c;
     c.contrast = median(contrasts);
@@ -137,12 +134,19 @@ class Search {
     std::sort(xs.begin(), xs.end());
     c.begin_x_m = xs[xs.size() / 50];
     c.end_x_m = xs[xs.size() - 1 - xs.size() / 50];
-    c.visible = static_cast<double>(inside) / std::max(1.0, columns_of(c));
+    weigh(c);
     return c;
   }
 
+  // What one line explains is no evidence for another.
+  void take(const Line& line) {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (std::abs(points_[i].q - line.q_at(points_[i].s)) < 2.0 * tolerance(points_[i])) taken_[i] = true;
+    }
+  }
+
   static std::string no_hog_line(const CrossCandidate& c) {
-    if (c.supporters < fewest_supporters) return "too short";
+    if (c.supporters < fewest_supporters || c.evidence < least_evidence) return "no line";
     if (c.contrast < least_contrast) return "too thin";
     const double error = std::abs(c.width_m - rules::hog_line_width_m);
     if (c.width_m > 0.0 && error > width_tolerance * rules::hog_line_width_m) return "wrong width";
@@ -168,23 +172,60 @@ class Search {
     return true;
   }
 
-  // How many blocks of columns a line of the narrowest sheet's length could be seen in.
-  double columns_of(const CrossCandidate& c) const {
+  // Wide paint is located less well, in pixels, than thin paint.
+  double tolerance(const FootPoint& p) const { return within_ + 0.08 * rules::hog_line_width_m * p.q * p.q; }
+
+  // One ridge of each block of columns, the nearest to the line.
+  std::vector<std::size_t> supporters_of(const Line& line) const {
+    std::vector<std::size_t> nearest;
+    int block = -1;
+    double best = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double off = std::abs(points_[i].q - line.q_at(points_[i].s)) / tolerance(points_[i]);
+      if (taken_[i] || off > 1.0) continue;
+      if (ridges_[i].column != block) {
+        nearest.push_back(i);
+      } else if (off < best) {
+        nearest.back() = i;
+      } else {
+        continue;
+      }
+      block = ridges_[i].column;
+      best = off;
+    }
+    return nearest;
+  }
+
+  // Looks at every column that a line of the narrowest sheet's length crosses, whether it was a ridge there or not.
+  void weigh(CrossCandidate& c) const {
     constexpr int steps = 64;
-    double columns_px = 0.0;
     std::optional<Eigen::Vector2d> before;
+    double sum = 0.0, square = 0.0;
+    int columns = 0, seen = 0;
     for (int i = 0; i <= steps; ++i) {
-      auto pixel = view_.pixel_of_ground(c.at(half_narrowest_m * (2.0 * i / steps - 1.0)));
-      if (pixel && !view_.lens().in_picture(*pixel)) pixel.reset();
-      if (pixel && before) columns_px += std::abs(pixel->x() - before->x());
+      auto pixel = finder_.camera().project_paint(c.at(half_narrowest_m * (2.0 * i / steps - 1.0)));
+      if (pixel && !finder_.camera().lens().in_picture(*pixel)) pixel.reset();
+      if (pixel && before) {
+        for (int block = finder_.block_of(before->x()); block < finder_.block_of(pixel->x()); ++block) {
+          const double t = (finder_.column_px(block) - before->x()) / (pixel->x() - before->x());
+          const double v = finder_.contrast_at(block, before->y() + t * (pixel->y() - before->y())).value_or(0.0);
+          sum += v;
+          square += v * v;
+          seen += v > 0.5 * c.contrast ? 1 : 0;
+          ++columns;
+        }
+      }
       before = pixel;
     }
-    return columns_px / HogRidgeFinder::block_px;
+    if (columns < fewest_supporters) return;
+    const double mean = sum / columns;
+    const double variance = std::max(square / columns - mean * mean, 1e-6);
+    c.visible = static_cast<double>(seen) / columns;
+    c.evidence = mean / std::sqrt(variance / columns);
   }
 
   const std::vector<HogRidge>& ridges_;
   const HogRidgeFinder& finder_;
-  const GroundView& view_;
   CrossRange range_;
   Eigen::Vector2d foot_;
   double within_;
@@ -192,11 +233,8 @@ class Search {
   int logs_;
   std::vector<float> votes_;
   std::vector<FootPoint> points_;
+  std::vector<bool> taken_;
 };
-
-bool same(const CrossCandidate& a, const CrossCandidate& b) {
-  return std::abs(a.distance_m - b.distance_m) < 0.03 * b.distance_m && std::abs(a.yaw_rad - b.yaw_rad) < 0.02;
-}
 
 }  // namespace
 
@@ -213,21 +251,22 @@ std::vector<CrossCandidate> find_cross_candidates(const std::vector<HogRidge>& r
   search.vote();
   std::vector<CrossCandidate> found;
   int refused = 0;
-  for (Line line : search.peaks(5 * most)) {
-    if (!search.refine(line)) continue;
+  for (Line line : search.peaks(8 * most)) {
+    if (found.size() >= most || !search.refine(line)) continue;
     const CrossCandidate c = search.describe(line);
     if (c.distance_m < range.min_distance_m || c.distance_m > range.max_distance_m) continue;
-    if (std::any_of(found.begin(), found.end(), [&](const CrossCandidate& f) { return same(f, c); })) continue;
-    if (const std::string why = Search::no_hog_line(c); !why.empty()) {
-      refused += why == "too short" ? 0 : 1;
-      continue;
+    const std::string why = Search::no_hog_line(c);
+    if (why == "no line") continue;
+    search.take(line);
+    if (why.empty()) {
+      found.push_back(c);
+    } else {
+      ++refused;
     }
-    found.push_back(c);
   }
   if (too_thin != nullptr) *too_thin = refused;
   std::sort(found.begin(), found.end(),
-            [](const CrossCandidate& a, const CrossCandidate& b) { return a.supporters > b.supporters; });
-  if (found.size() > most) found.resize(most);
+            [](const CrossCandidate& a, const CrossCandidate& b) { return a.evidence > b.evidence; });
   return found;
 }
 
