@@ -12,8 +12,8 @@ namespace hogline::hw {
 /// One picture. `bgr` is CV_8UC3 in the camera's response curve, or CV_8UC1.
 struct Frame {
   cv::Mat bgr;
-  Stamp stamp{};          ///< middle of the exposure, steady clock
-  std::uint64_t id = 0;   ///< the camera's counter: a gap means lost frames
+  Stamp stamp{};         ///< middle of the exposure, steady clock
+  std::uint64_t id = 0;  ///< the camera's counter: a gap means lost frames
 };
 
 /// latest() never blocks and never gives the same frame twice.

@@ -12,9 +12,9 @@ namespace hogline::hw {
 /// A classic CAN data frame (ISO 11898-1) with its 11- or 29-bit identifier.
 struct CanFrame {
   std::uint32_t id = 0;
-  bool extended = false;             ///< 29-bit identifier
-  bool remote = false;               ///< remote transmission request: no data
-  std::uint8_t length = 0;           ///< 0..8
+  bool extended = false;    ///< 29-bit identifier
+  bool remote = false;      ///< remote transmission request: no data
+  std::uint8_t length = 0;  ///< 0..8
   std::array<std::uint8_t, 8> data{};
   bool operator==(const CanFrame&) const = default;
 };

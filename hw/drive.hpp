@@ -25,9 +25,9 @@ enum class DrivePhase {
 
 struct DriveState {
   DrivePhase phase = DrivePhase::booting;
-  Stamp stamp{};                        ///< of the older of the two wheels' newest feedback
-  WheelSpeeds measured;                 ///< from the drives' encoders
-  std::optional<DeviceError> error;     ///< latched
+  Stamp stamp{};                     ///< of the older of the two wheels' newest feedback
+  WheelSpeeds measured;              ///< from the drives' encoders
+  std::optional<DeviceError> error;  ///< latched
 };
 
 /// Neither call blocks. step() does the talking; it is called every control period with the present time.

@@ -12,10 +12,10 @@ enum class JawState { unknown, moving, open, holding, closed_empty };
 struct GripperState {
   JawState jaws = JawState::unknown;
   bool activated = false;
-  double spin_radps = 0.0;           ///< of the stone, counter-clockwise from above positive
-  Stamp stamp{};                     ///< of the newest answer that was checked by its content
+  double spin_radps = 0.0;             ///< of the stone, counter-clockwise from above positive
+  Stamp stamp{};                       ///< of the newest answer that was checked by its content
   std::optional<Stamp> opening_since;  ///< when the device first reported that the jaws open
-  std::optional<DeviceError> error;  ///< latched
+  std::optional<DeviceError> error;    ///< latched
 };
 
 /// Never blocks the caller: requests are taken and carried out by step() or by the adapter's own thread.

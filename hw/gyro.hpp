@@ -8,8 +8,8 @@
 namespace hogline::hw {
 
 struct GyroState {
-  double rate_radps = 0.0;           ///< counter-clockwise from above positive; raw, bias not removed
-  bool valid = false;                ///< the device's own valid flag, and plausible
+  double rate_radps = 0.0;  ///< counter-clockwise from above positive; raw, bias not removed
+  bool valid = false;       ///< the device's own valid flag, and plausible
   Stamp stamp{};
   std::optional<DeviceError> error;  ///< latched
 };

@@ -17,8 +17,8 @@ struct DriveCommand {
 };
 
 struct GripperCommand {
-  bool release = false;       ///< false keeps the stone: the default in every doubt
-  double spin_radps = 0.0;    ///< of the held stone, counter-clockwise from above positive
+  bool release = false;     ///< false keeps the stone: the default in every doubt
+  double spin_radps = 0.0;  ///< of the held stone, counter-clockwise from above positive
 };
 
 enum class ArmOrder { hold, fold, unfold };

@@ -27,9 +27,9 @@ struct GyroObservation {
 
 struct GripperObservation {
   Stamp stamp{};
-  bool holding = false;       ///< the jaws are closed on a stone
-  bool open = false;          ///< the jaws are, or have begun to be, open
-  double spin_radps = 0.0;    ///< of the held stone, counter-clockwise from above positive
+  bool holding = false;     ///< the jaws are closed on a stone
+  bool open = false;        ///< the jaws are, or have begun to be, open
+  double spin_radps = 0.0;  ///< of the held stone, counter-clockwise from above positive
   std::optional<Stamp> opening_since;
 };
 

@@ -10,7 +10,7 @@ struct ShotOrder {
   double speed_mps = 0.0;    ///< of the stone at the moment it is let go
   double heading_rad = 0.0;  ///< of the stone's velocity from e's y axis, counter-clockwise positive
   Curl curl = Curl::counter_clockwise;
-  double spin_radps = 0.0;   ///< magnitude of the stone's rate of turn at release
+  double spin_radps = 0.0;  ///< magnitude of the stone's rate of turn at release
 };
 
 }  // namespace hogline::servo

@@ -25,11 +25,11 @@ struct StateEntry {
 
 /// What the controller believes, for drawings and logs. Truth is elsewhere.
 struct ThrowerDiagnosis {
-  double yaw_rad = 0.0;                    ///< fused heading in e
+  double yaw_rad = 0.0;  ///< fused heading in e
   double yaw_sigma_rad = 0.0;
-  double hog_distance_m = 0.0;             ///< filtered, of b's origin
+  double hog_distance_m = 0.0;  ///< filtered, of b's origin
   double hog_distance_sigma_m = 0.0;
-  double lateral_m = 0.0;                  ///< from the shot's line, left positive
+  double lateral_m = 0.0;  ///< from the shot's line, left positive
   double speed_mps = 0.0;
   double speed_setpoint_mps = 0.0;
   std::optional<double> yaw_after_alignment_rad;
@@ -50,8 +50,8 @@ class Thrower {
   ThrowerCommand step(const ThrowerObservation& observation, Duration dt);
 
   ThrowerState state() const;
-  bool finished() const;                               ///< stopped, and at rest
-  bool released() const;                               ///< the stone was let go
+  bool finished() const;  ///< stopped, and at rest
+  bool released() const;  ///< the stone was let go
   const std::optional<std::string>& abort_reason() const;
   const std::vector<StateEntry>& history() const;
   const ThrowerDiagnosis& diagnosis() const;

@@ -1,0 +1,76 @@
+// One robust joint fit of a camera's pose to every painted edge in view: virtual visual servoing (Gauss-Newton on the
+// camera's twist) in the raw picture, through lens, response curve and ice refraction.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/camera_setup.hpp"
+
+namespace hogline::vision {
+
+/// How far off the start may be, and what else is known beforehand.
+struct SheetFitStart {
+  Pose eMc;                             ///< rough camera pose in e
+  double search_px = 8.0;               ///< edges are looked for within this of where `eMc` puts them
+  std::optional<double> sheet_width_m;  ///< a first guess of the width; empty: sidelines are not used at first
+  double roll_sigma_rad = 0.0;          ///< weak prior on the mount's roll, 0 for none
+  double pitch_sigma_rad = 0.0;         ///< weak prior on the mount's pitch, 0 for none
+  double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
+};
+
+/// A place where paint was looked for.
+struct EdgeSite {
+  Eigen::Vector2d pixel;     ///< where the fitted model puts it
+  Eigen::Vector2d normal;    ///< unit, in the picture
+  double residual_px = 0.0;  ///< found minus predicted along the normal
+  double weight = 0.0;       ///< 0: not found, or an outlier
+  int feature = 0;           ///< index into SheetFitResult::features
+};
+
+struct FittedFeature {
+  std::string name;  ///< outer_ring, middle_ring, inner_ring, button, centre_line, hog_line, left_sideline, ...
+  int sites_tried = 0;
+  int sites_used = 0;
+};
+
+/// `ok == false` with a reason when too little was found or the fit is not determined.
+struct SheetFitResult {
+  bool ok = false;
+  std::string reason;
+  Pose eMc;
+  Eigen::Matrix<double, 6, 6>
+      covariance;  ///< of the camera's twist (translation first, c's axes), inflated by what the model can not know
+  PlanarPose body;
+  PlanarSigma sigma;
+  double hog_distance_sigma_m = 0.0;
+  std::optional<double> sheet_width_m;  ///< empty where no sideline pair was used
+  double sheet_width_sigma_m = 0.0;
+  double residual_px = 0.0;
+  int sites_tried = 0;
+  int sites_used = 0;
+  std::vector<FittedFeature> features;
+  std::vector<EdgeSite> sites;
+};
+
+/// Reusable: keeps its buffers from call to call.
+class SheetFit {
+ public:
+  explicit SheetFit(const CameraSetup& setup);
+  ~SheetFit();
+  SheetFit(SheetFit&&) noexcept;
+  SheetFit& operator=(SheetFit&&) noexcept;
+
+  /// `image` is CV_8UC3 (BGR) or CV_8UC1 in the camera's response curve, of the setup's size (else !ok).
+  const SheetFitResult& fit(const cv::Mat& image, const SheetFitStart& start);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hogline::vision
