@@ -5,6 +5,7 @@
 
 #include "vision/detect/edge_points.hpp"
 #include "vision/detect/h_choice.hpp"
+#include "vision/detect/h_level.hpp"
 #include "vision/detect/h_lines.hpp"
 #include "vision/detect/h_ridges.hpp"
 #include "vision/detect/line_candidates.hpp"
@@ -21,7 +22,7 @@ constexpr double max_yaw_rad = 0.262;
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
-constexpr double pitch_sigma_rad = 0.0045;  // the running body rocks by tenths of a degree
+constexpr double search_px = 10.0;
 constexpr double roll_sigma_rad = 0.0017;
 constexpr double height_sigma_m = 0.003;
 
@@ -29,8 +30,8 @@ constexpr double height_sigma_m = 0.003;
 struct Start {
   PlanarPose body;
   std::optional<double> width_m;
-  double search_px;
-  double lean_rad = 0.0;
+  double search_px = 0.0;
+  double lean_rad = 0.0;  ///< how much more the camera looks down than its mount says
 };
 
 }  // namespace
@@ -40,6 +41,7 @@ struct LowView::Impl {
       : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
+  Start levelled(const HShape& h, const std::vector<EdgePoint>& points) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
   SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
@@ -80,13 +82,18 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen =
-        impl_->refine(image, {shapes[i].body, shapes[i].width_m, 12.0, shapes[i].lean_rad}, stamp, sketch);
+    const SheetPosePercept seen = impl_->refine(image, impl_->levelled(shapes[i], points), stamp, sketch);
     if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
     if (seen.ok) return seen;
     if (i == 0) nothing.reason = seen.reason;
   }
   return nothing;
+}
+
+Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points) const {
+  const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);
+  if (!vote) return {h.body, h.width_m, search_px, h.lean_rad};
+  return {body_before(h.hog, h.centre_x_m, vote->lean_rad, view), h.width_m, search_px, vote->lean_rad};
 }
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
@@ -104,7 +111,7 @@ CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {
   if (!prediction.body) return range;
   const double distance_m = rules::tee_to_hog_m - prediction.body->y_m;
   const double slack_m =
-      0.1 + 4.0 * prediction.body_sigma.y_m + 3.0 * pitch_sigma_rad * distance_m * distance_m / setup.mount.z_m;
+      0.1 + 4.0 * prediction.body_sigma.y_m + 3.0 * lean_sigma_rad * distance_m * distance_m / setup.mount.z_m;
   const double slack_rad = 0.02 + 4.0 * prediction.body_sigma.yaw_rad;
   range.min_distance_m = std::max(range.min_distance_m, distance_m - slack_m);
   range.max_distance_m = std::min(range.max_distance_m, distance_m + slack_m);
@@ -128,7 +135,7 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   fit_start.eMc = eMb(start.body) * bMc(mount);
   fit_start.search_px = start.search_px;
   fit_start.sheet_width_m = start.width_m;
-  fit_start.pitch_sigma_rad = pitch_sigma_rad;
+  fit_start.pitch_sigma_rad = lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;
   fit_start.height_sigma_m = height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
@@ -143,11 +150,11 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
   const Eigen::Vector3d up = bMc(setup.mount).linear() * result.eMc.linear().row(2).transpose();
-  if (std::abs(up.x()) > 6.0 * pitch_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
+  if (std::abs(up.x()) > 6.0 * lean_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
     return "the fitted tilt is too far from the mount's";
   }
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
-  const double slack_m = 0.05 + 4.0 * pitch_sigma_rad * far_m * far_m / setup.mount.z_m;
+  const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
   if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
       std::abs(result.body.yaw_rad - start.body.yaw_rad) > 0.05) {
     return "the fit went away from the H that was seen";

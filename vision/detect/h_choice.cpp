@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/detect/h_level.hpp"
+
 namespace hogline::vision {
 namespace {
 
-constexpr double lean_sigma_rad = 0.0045;   // the body rocks by tenths of a degree against the mount
 constexpr double slope_sigma_rad = 0.004;   // of a line candidate on the ice
 constexpr double missing_sideline_m = 0.5;  // costs as much as so wide a gap
 constexpr double missing_centre_m = 0.5;
@@ -15,15 +16,6 @@ constexpr double full_contrast = 0.5;     // paint that takes away half the ligh
 constexpr double largest_gap_m = 0.4;     // a logo or a person may hide the rest
 constexpr double largest_x_m = 1.3;       // of a running thrower from the centre line
 constexpr double inner_preference = 0.1;  // of two possible sidelines the inner: the outer one is the neighbour's
-
-/// Ground coordinates if the camera looked down by `lean_rad` more than its mount says.
-Eigen::Vector2d leaned(const Eigen::Vector2d& ground, double lean_rad, const GroundView& view) {
-  const Eigen::Vector3d camera = view.gMc().translation();
-  const Eigen::Vector2d d = ground - camera.head<2>();
-  const double ahead = d.y() * std::cos(lean_rad) - camera.z() * std::sin(lean_rad);
-  const double down = d.y() * std::sin(lean_rad) + camera.z() * std::cos(lean_rad);
-  return camera.head<2>() + camera.z() / down * Eigen::Vector2d(d.x(), ahead);
-}
 
 /// A straight line on the ice by two of its points.
 struct GroundLine {
@@ -34,7 +26,6 @@ struct GroundLine {
     return {leaned(a, lean_rad, view), leaned(b, lean_rad, view)};
   }
   double down_slope() const { return std::atan2(-(b - a).x(), (b - a).y()); }
-  double across_yaw() const { return std::atan2(-(b - a).y(), (b - a).x()); }
 };
 
 GroundLine ground_line(const ClassifiedLine& line, double begin_m, double end_m) {
@@ -166,16 +157,8 @@ class Judge {
     }
     const double det = a * c - b * b;
     h.lean_rad = (a * q - b * p) / det;
-    const double x = h.body.x_m;
-    const double cos_yaw = std::cos(hog_.yaw_rad);
-    const GroundLine hog = GroundLine{hog_.at(-cos_yaw), hog_.at(cos_yaw)}.leaned_by(h.lean_rad, view_);
-    h.body.yaw_rad = hog.across_yaw();
-    const Eigen::Vector2d normal(std::sin(h.body.yaw_rad), std::cos(h.body.yaw_rad));
-    const double distance = normal.dot(hog.a);
-    h.body.y_m = rules::tee_to_hog_m + 0.5 * rules::hog_line_width_m - distance;
-    const Eigen::Vector2d middle =
-        leaned(hog_.at(-x * cos_yaw + hog_.distance_m * hog_.normal().x()), h.lean_rad, view_);
-    h.body.x_m = -(middle.x() * normal.y() - middle.y() * normal.x());
+    h.centre_x_m = -h.body.x_m;
+    h.body = body_before(hog_, h.centre_x_m, h.lean_rad, view_);
   }
 
   bool expected(const PlanarPose& body) const {

@@ -17,9 +17,10 @@ struct HShape {
   std::optional<ClassifiedLine> left;
   std::optional<ClassifiedLine> right;
   std::optional<ClassifiedLine> centre;
-  double error_m = 0.0;           ///< the three terms, in metres; what is missing costs
-  PlanarPose body;                ///< from the intercepts
-  double lean_rad = 0.0;          ///< how much more the camera looks down than its mount says, from the down-ice lines
+  double error_m = 0.0;     ///< the three terms, in metres; what is missing costs
+  double centre_x_m = 0.0;  ///< where the centre line meets the hog line, to the right of the foot of b's perpendicular
+  PlanarPose body;          ///< from the intercepts
+  double lean_rad = 0.0;    ///< how much more the camera looks down than its mount says, from the down-ice lines
   std::optional<double> width_m;  ///< from the intercepts, where sidelines were seen
 };
 
