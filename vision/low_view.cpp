@@ -23,6 +23,9 @@ constexpr std::size_t most_lines = 40;
 constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
 constexpr double search_px = 10.0;
+constexpr int fewest_sideline_points = 40;
+constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
+constexpr double least_error_m = 0.0005;
 constexpr double roll_sigma_rad = 0.0017;
 constexpr double height_sigma_m = 0.003;
 
@@ -41,12 +44,13 @@ struct LowView::Impl {
       : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
-  Start levelled(const HShape& h, const std::vector<EdgePoint>& points) const;
+  Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
   SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
   SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
+  double lean_error_m(const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
 
   CameraSetup setup;
@@ -82,7 +86,8 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen = impl_->refine(image, impl_->levelled(shapes[i], points), stamp, sketch);
+    const SheetPosePercept seen =
+        impl_->refine(image, impl_->levelled(shapes[i], points, prediction.sheet_width_m), stamp, sketch);
     if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
     if (seen.ok) return seen;
     if (i == 0) nothing.reason = seen.reason;
@@ -90,10 +95,13 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   return nothing;
 }
 
-Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points) const {
+Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points,
+                              std::optional<double> known_width_m) const {
   const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);
-  if (!vote) return {h.body, h.width_m, search_px, h.lean_rad};
-  return {body_before(h.hog, h.centre_x_m, vote->lean_rad, view), h.width_m, search_px, vote->lean_rad};
+  if (!vote) return {h.body, known_width_m ? known_width_m : h.width_m, search_px, h.lean_rad};
+  std::optional<double> width_m = known_width_m;
+  if (!width_m && vote->sideline_points >= fewest_sideline_points) width_m = vote->width_m;
+  return {body_before(h.hog, h.centre_x_m, vote->lean_rad, view), width_m, search_px, vote->lean_rad};
 }
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
@@ -177,7 +185,8 @@ SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stam
   p.body = result.body;
   p.sigma = result.sigma;
   p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
-  p.hog_distance_sigma_m = result.hog_distance_sigma_m;
+  p.hog_distance_sigma_m = std::hypot(result.hog_distance_sigma_m, lean_error_m(result));
+  p.sigma.y_m = p.hog_distance_sigma_m;
   p.sheet_width_m = result.sheet_width_m;
   p.eMc = row_major(result.eMc);
   p.residual_px = result.residual_px;
@@ -187,6 +196,16 @@ SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stam
     if (f.sites_used > 0) p.features.push_back(f.name);
   }
   return p;
+}
+
+// Without a ring the lean comes from sidelines, which are not laid as parallel as the fit takes them to be.
+double LowView::Impl::lean_error_m(const SheetFitResult& result) const {
+  const bool ring = std::any_of(result.features.begin(), result.features.end(),
+                                [](const FittedFeature& f) { return f.name.ends_with("_ring") && f.sites_used >= 24; });
+  if (ring) return least_error_m;
+  const double z = setup.mount.z_m;
+  const double ahead = rules::tee_to_hog_m - result.eMc.translation().y();
+  return std::hypot(least_error_m, sideline_lean_rad * (ahead * ahead + z * z) / z);
 }
 
 std::string LowView::Impl::why_no_hog_line(int too_thin) const {

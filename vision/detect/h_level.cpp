@@ -28,6 +28,7 @@ struct Voter {
 struct Score {
   int sideline = 0;
   int ring = 0;
+  double width_m = 0.0;
   int sum() const { return sideline + ring; }
 };
 
@@ -62,10 +63,22 @@ class Poll {
       vote(std::abs(e.x()), 0.008 + 0.7 * std::abs(e.x()) / ahead / v.px_per_m_ahead);
     }
     s.sideline = *std::max_element(histogram_.begin(), histogram_.end());
+    s.width_m = innermost_width(s.sideline);
     return s;
   }
 
  private:
+  // A neighbouring sheet's sidelines lie 0.1 to 0.3 m outside ours and may be seen better.
+  double innermost_width(int most) const {
+    std::size_t i = 0;
+    while (i + 1 < histogram_.size() && histogram_[i] < 0.6 * most) ++i;
+    std::size_t peak = i;
+    for (std::size_t k = i; k < std::min(i + 8, histogram_.size()); ++k) {
+      if (histogram_[k] > histogram_[peak]) peak = k;
+    }
+    return 2.0 * (first_m + (static_cast<double>(peak) + 0.5) * bin_m);
+  }
+
   static bool on_ring(double radius, double tolerance) {
     for (const double r : {rules::outer_ring_radius_m, rules::middle_ring_radius_m, rules::inner_ring_radius_m}) {
       if (std::abs(radius - r) < tolerance) return true;
@@ -128,7 +141,8 @@ std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, cons
     best = i;
   }
   if (scores[best].sum() < fewest_points) return std::nullopt;
-  return LeanVote{(static_cast<double>(best) - lean_steps) * lean_step_rad, scores[best].sideline, scores[best].ring};
+  return LeanVote{(static_cast<double>(best) - lean_steps) * lean_step_rad, scores[best].sideline, scores[best].width_m,
+                  scores[best].ring};
 }
 
 }  // namespace hogline::vision

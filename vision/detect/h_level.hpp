@@ -23,6 +23,7 @@ PlanarPose body_before(const CrossCandidate& hog, double centre_x_m, double lean
 struct LeanVote {
   double lean_rad = 0.0;
   int sideline_points = 0;  ///< on one pair of lines as far from the centre line as sidelines may be
+  double width_m = 0.0;     ///< between these lines: the innermost of those nearly as well seen as the best
   int ring_points = 0;      ///< on the outer, middle or inner ring
 };
 
