@@ -98,11 +98,10 @@ void Prior::add(const ParameterRow& row, double value, double sigma) {
   pull += w * value * row.transpose();
 }
 
-WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     double search_px) {
+WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior) {
   WideStep step;
   constexpr int rounds = 10;
-  double reach = 1.5 * search_px;
+  double share = 1.5;  // of the site's search
   for (int k = 0; k < rounds; ++k) {
     ParameterMatrix information = prior.information;
     ParameterVector pull = prior.pull;
@@ -114,6 +113,7 @@ WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Ca
       ++looked;
       const double model = sites[i].along.dot(step.change);
       const double top = list.front().strength;
+      const double reach = std::max(2.0, share * sites[i].search_px);
       double best = 0.0;
       double offset = 0.0;
       for (const Candidate& c : list) {
@@ -131,7 +131,7 @@ WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Ca
     information = information.selfadjointView<Eigen::Lower>();
     step.change = information.ldlt().solve(pull);
     step.agreeing_share = looked > 0 ? static_cast<double>(step.agreeing) / looked : 0.0;
-    reach = std::max(2.0, 0.7 * reach);
+    share *= 0.7;
   }
   return step;
 }

@@ -21,14 +21,13 @@ struct Prior {
 };
 
 /// The change that brings most candidates together, each site choosing among its own: weights by Tukey, whose reach
-/// shrinks from `search_px` to two pixels. Returns the share of sites with a candidate there.
+/// shrinks from the site's search to two pixels. Returns the share of sites with a candidate there.
 struct WideStep {
   ParameterVector change = ParameterVector::Zero();
   double agreeing_share = 0.0;
   int agreeing = 0;
 };
-WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     double search_px);
+WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior);
 
 /// The robust change over subpixel places, with what is needed to judge it. Buffers keep their room.
 struct CloseStep {

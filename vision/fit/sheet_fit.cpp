@@ -20,9 +20,23 @@ constexpr double most_residual_px = 1.5;
 
 // Prior of a paint's width about what the scan saw, and of a divider's place.
 constexpr double paint_sigma_m = 0.015;
+constexpr double given_width_sigma_m = 0.02;
 
 // Error common to a whole feature: paint against the rules, lens against its calibration.
 constexpr double shared_error_px = 0.03;
+
+// A start that is wrong by `start_position_m` and `start_angle_rad` moves a middling site by about `usual_search_px`;
+// near the camera it moves it further, and the search goes along.
+constexpr double usual_search_px = 20.0;
+constexpr double start_position_m = 0.06;
+constexpr double start_angle_rad = 0.015;
+constexpr double most_search_px = 70.0;
+
+double search_of(const PlannedSite& site, double search_px) {
+  const double moved = 2.0 * std::hypot(start_position_m * site.along.segment<2>(0).norm(),
+                                        start_angle_rad * site.along.segment<3>(3).norm());
+  return std::clamp(moved * search_px / usual_search_px, 0.5 * search_px, std::max(search_px, most_search_px * search_px / usual_search_px));
+}
 
 ParameterRow unit(int k) { return ParameterRow::Unit(k); }
 
@@ -99,6 +113,11 @@ void SheetFit::Impl::begin(const SheetFitStart& start) {
   state = FitState{};
   state.eMc = start.eMc;
   state.paint_depth_m = setup.ice.paint_depth_m;
+  if (!start.sheet_width_m || setup.sheet.sideline != SidelineKind::line) return;
+  for (Sideline& line : state.sidelines) {
+    line.known = true;
+    line.edge_m = 0.5 * *start.sheet_width_m;
+  }
 }
 
 // What is known beforehand, about the present state.
@@ -129,6 +148,10 @@ Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
     p.add(unit(edge), 0.0, line.known ? 0.3 : held);
     p.add(unit(edge + 1), 0.0, line.known && line.is_line ? paint_sigma_m : held);
   }
+  if (start.sheet_width_m && state.sidelines[0].known && state.sidelines[1].known) {
+    p.add(unit(parameter::left_edge) + unit(parameter::right_edge),
+          *start.sheet_width_m - state.sidelines[0].edge_m - state.sidelines[1].edge_m, given_width_sigma_m);
+  }
   const double depth_sigma = start.paint_depth_sigma_m > 0.0 ? start.paint_depth_sigma_m : held;
   p.add(unit(parameter::depth), setup.ice.paint_depth_m - state.paint_depth_m, depth_sigma);
   return p;
@@ -155,8 +178,11 @@ bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& st
   for (double search_px = start.search_px; search_px > 2.5; search_px *= 0.5) {
     plan(start, 24.0);
     wide.clear();
-    for (const PlannedSite& site : sites) wide.push_back(look_widely(light, site, search_px, profile));
-    const WideStep found_step = step_widely(sites, wide, prior(start), search_px);
+    for (PlannedSite& site : sites) {
+      site.search_px = search_of(site, search_px);
+      wide.push_back(look_widely(light, site, site.search_px, profile));
+    }
+    const WideStep found_step = step_widely(sites, wide, prior(start));
     if (found_step.agreeing < 8) {
       refuse("too little paint was found near the start");
       return false;
@@ -194,14 +220,14 @@ void SheetFit::Impl::drop_odd_colours() {
 void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitStart& start) {
   if (setup.sheet.sideline == SidelineKind::none) return;
   ScanRange range{0.5 * rules::min_width_m - 0.05, 0.5 * rules::max_width_m + 0.05};
-  if (start.sheet_width_m) range = {0.5 * *start.sheet_width_m - 0.06, 0.5 * *start.sheet_width_m + 0.06};
+  if (start.sheet_width_m) range = {0.5 * *start.sheet_width_m - 0.04, 0.5 * *start.sheet_width_m + 0.04};
   const bool bumper = setup.sheet.sideline == SidelineKind::bumper;
   const SheetCamera paint = camera();
   const SheetCamera surface(lens, state.eMc, Ice{0.0, setup.ice.refractive_index});
   for (int side = 0; side < 2; ++side) {
     Sideline& line = state.sidelines[static_cast<std::size_t>(side)];
     line = scan_sideline(light, bumper ? surface : paint, side == 0 ? -1.0 : 1.0, !bumper, range);
-    line.moves_camera = setup.sheet.sideline != SidelineKind::unknown;
+    line.moves_camera = setup.sheet.sideline == SidelineKind::line;
   }
 }
 
