@@ -20,14 +20,15 @@ struct Prior {
   void add(const ParameterRow& row, double value, double sigma);
 };
 
-/// The change that brings most candidates together, each site choosing among its own: weights by Tukey, whose reach
-/// shrinks from the site's search to two pixels. Returns the share of sites with a candidate there.
+/// The change that brings most candidates together, each site choosing among its own: a consensus of random samples,
+/// drawn from how wrong the start may be (`start_sigma`), then weights by Tukey whose reach shrinks to two pixels.
 struct WideStep {
   ParameterVector change = ParameterVector::Zero();
   double agreeing_share = 0.0;
   int agreeing = 0;
 };
-WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior);
+WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
+                     const ParameterVector& start_sigma);
 
 /// The robust change over subpixel places, with what is needed to judge it. Buffers keep their room.
 struct CloseStep {

@@ -35,7 +35,15 @@ constexpr double most_search_px = 70.0;
 double search_of(const PlannedSite& site, double search_px) {
   const double moved = 2.0 * std::hypot(start_position_m * site.along.segment<2>(0).norm(),
                                         start_angle_rad * site.along.segment<3>(3).norm());
-  return std::clamp(moved * search_px / usual_search_px, 0.5 * search_px, std::max(search_px, most_search_px * search_px / usual_search_px));
+  return std::clamp(moved * search_px / usual_search_px, 0.5 * search_px,
+                    std::max(search_px, most_search_px * search_px / usual_search_px));
+}
+
+ParameterVector start_sigma(double search_px) {
+  ParameterVector sigma = ParameterVector::Constant(held);
+  sigma.segment<3>(0).setConstant(start_position_m * search_px / usual_search_px);
+  sigma.segment<3>(3).setConstant(start_angle_rad * search_px / usual_search_px);
+  return sigma;
 }
 
 ParameterRow unit(int k) { return ParameterRow::Unit(k); }
@@ -61,11 +69,12 @@ struct SheetFit::Impl {
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
   bool approach(const PictureLight& light, const SheetFitStart& start);
-  void look(const PictureLight& light, double search_px);
+  void look(const PictureLight& light, double search_px, int half_breadth);
   void drop_odd_colours();
   bool move_by(const ParameterVector& change);
   void find_sidelines(const PictureLight& light, const SheetFitStart& start);
-  void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px);
+  void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
+              int half_breadth);
   void judge(const SheetFitStart& start);
   void report_width();
   void report_sites();
@@ -182,7 +191,7 @@ bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& st
       site.search_px = search_of(site, search_px);
       wide.push_back(look_widely(light, site, site.search_px, profile));
     }
-    const WideStep found_step = step_widely(sites, wide, prior(start));
+    const WideStep found_step = step_widely(sites, wide, prior(start), start_sigma(search_px));
     if (found_step.agreeing < 8) {
       refuse("too little paint was found near the start");
       return false;
@@ -195,9 +204,9 @@ bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& st
   return true;
 }
 
-void SheetFit::Impl::look(const PictureLight& light, double search_px) {
+void SheetFit::Impl::look(const PictureLight& light, double search_px, int half_breadth) {
   found.clear();
-  for (const PlannedSite& site : sites) found.push_back(look_closely(light, site, search_px, profile));
+  for (const PlannedSite& site : sites) found.push_back(look_closely(light, site, search_px, half_breadth, profile));
 }
 
 // A ring keeps its colours all round: an edge of other colours is a stone, a shoe or a lamp.
@@ -227,14 +236,14 @@ void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitSta
   for (int side = 0; side < 2; ++side) {
     Sideline& line = state.sidelines[static_cast<std::size_t>(side)];
     line = scan_sideline(light, bumper ? surface : paint, side == 0 ? -1.0 : 1.0, !bumper, range);
-    line.moves_camera = setup.sheet.sideline == SidelineKind::line;
+    line.moves_camera = setup.sheet.sideline != SidelineKind::unknown;
   }
 }
 
-void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& start, double spacing_px,
-                            double search_px) {
+void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
+                            int half_breadth) {
   plan(start, spacing_px);
-  look(light, search_px);
+  look(light, search_px, half_breadth);
   drop_odd_colours();
   step_closely(sites, found, prior(start), step, scratch);
 }
@@ -330,14 +339,14 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
 
   if (!approach(light, start)) return result;
 
-  refine(light, start, 16.0, 3.0);
+  refine(light, start, 24.0, 3.0, 1);
   if (!move_by(step.change)) return refuse("the fit ran away");
 
   find_sidelines(light, start);
-  refine(light, start, 16.0, 2.5);
+  refine(light, start, 18.0, 2.5, 1);
   if (!move_by(step.change)) return refuse("the fit ran away");
 
-  refine(light, start, 9.0, 1.5);
+  refine(light, start, 12.0, 1.5, 2);
   if (!move_by(step.change)) return refuse("the fit ran away");
   judge(start);
   return result;

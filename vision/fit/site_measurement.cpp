@@ -7,7 +7,7 @@ namespace hogline::vision {
 namespace {
 
 // Half breadth of the mean along the tangent; an edge seen so bends by less than a pixel.
-int breadth_of(const PlannedSite& site) { return std::abs(site.curvature) > 0.02 ? 1 : 2; }
+int most_breadth(const PlannedSite& site) { return std::abs(site.curvature) > 0.02 ? 1 : 2; }
 
 double window_px(const PlannedSite& site, double room_px) { return std::min(room_px, 3.0 * site.blur_px + 3.0); }
 
@@ -20,7 +20,8 @@ Candidates look_widely(const PictureLight& light, const PlannedSite& site, doubl
   return site.step ? find_steps(profile, site.blur_px) : find_ridges(profile, site.width_px, site.blur_px);
 }
 
-SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site, double search_px, Profile& profile) {
+SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site, double search_px, int half_breadth,
+                             Profile& profile) {
   SiteMeasurement m;
   const double before = window_px(site, site.before_px);
   const double after = window_px(site, site.after_px);
@@ -28,7 +29,7 @@ SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site,
   if (before < least || after < least) return m;
 
   const double half = 0.5 * site.width_px;
-  const int breadth = breadth_of(site);
+  const int breadth = std::min(half_breadth, most_breadth(site));
   const Cut cut{site.pixel, site.normal, -half - before - search_px, half + after + search_px, 0.75, breadth};
   if (!sample(light.picture, light.response, cut, profile)) return m;
 

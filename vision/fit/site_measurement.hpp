@@ -28,7 +28,8 @@ struct PictureLight {
 /// Places within `search_px` of the prediction where the site's edge may be. `profile` is room to work in.
 Candidates look_widely(const PictureLight& light, const PlannedSite& site, double search_px, Profile& profile);
 
-/// To a fraction of a pixel, within `search_px` of the prediction.
-SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site, double search_px, Profile& profile);
+/// To a fraction of a pixel, within `search_px` of the prediction; the mean of up to `2 * half_breadth + 1` cuts.
+SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site, double search_px, int half_breadth,
+                             Profile& profile);
 
 }  // namespace hogline::vision

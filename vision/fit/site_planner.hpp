@@ -21,7 +21,8 @@ struct PlannedSite {
   double width_px = 0.0;   ///< of the line between its edges; 0 for a step
   double blur_px = 1.0;    ///< expected, standard deviation
   double curvature = 0.0;  ///< the curve leaves its tangent by curvature / 2 * t^2 along the normal, 1/px
-  double search_px = 0.0;    ///< how far from the prediction a wide look goes
+  double floor_px = 0.05;  ///< error of paint, lens and model at one site, beside noise
+  double search_px = 0.0;  ///< how far from the prediction a wide look goes
   double before_px = 0.0;  ///< room without other paint before the (first) edge ...
   double after_px = 0.0;   ///< ... and after the (second) one
 };
