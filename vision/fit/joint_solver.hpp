@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "vision/fit/fit_parameters.hpp"
@@ -21,14 +22,14 @@ struct Prior {
 };
 
 /// The change that brings most candidates together, each site choosing among its own: a consensus of random samples,
-/// drawn from how wrong the start may be (`start_sigma`), then weights by Tukey whose reach shrinks to two pixels.
+/// drawn from how wrong the start may be (the twist's `start_sigma`; none: from no change), then weights by Tukey whose reach shrinks to two pixels.
 struct WideStep {
   ParameterVector change = ParameterVector::Zero();
   double agreeing_share = 0.0;
   int agreeing = 0;
 };
 WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     const ParameterVector& start_sigma);
+                     const std::optional<Eigen::Matrix<double, 6, 1>>& start_sigma);
 
 /// The robust change over subpixel places, with what is needed to judge it. Buffers keep their room.
 struct CloseStep {

@@ -11,12 +11,16 @@
 namespace hogline::vision {
 namespace {
 
+constexpr double wide_spacing_px = 28.0;
+constexpr double close_look_px = 3.0;
+
 constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
 
 // Limits beyond which an estimate tells nothing: the fit is then "not determined".
 constexpr double most_sigma_m = 0.25;
 constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
 constexpr double most_residual_px = 1.5;
+constexpr double least_share = 0.4;  // of the places looked at
 
 // Prior of a paint's width about what the scan saw, and of a divider's place.
 constexpr double paint_sigma_m = 0.015;
@@ -24,6 +28,9 @@ constexpr double given_width_sigma_m = 0.02;
 
 // Error common to a whole feature: paint against the rules, lens against its calibration.
 constexpr double shared_error_px = 0.03;
+
+// Of the whole sheet's paint against the rules' numbers, which no residual shows.
+constexpr double painted_sigma_m = 0.0003;
 
 // A start that is wrong by `start_position_m` and `start_angle_rad` moves a middling site by about `usual_search_px`;
 // near the camera it moves it further, and the search goes along.
@@ -39,10 +46,10 @@ double search_of(const PlannedSite& site, double search_px) {
                     std::max(search_px, most_search_px * search_px / usual_search_px));
 }
 
-ParameterVector start_sigma(double search_px) {
-  ParameterVector sigma = ParameterVector::Constant(held);
-  sigma.segment<3>(0).setConstant(start_position_m * search_px / usual_search_px);
-  sigma.segment<3>(3).setConstant(start_angle_rad * search_px / usual_search_px);
+Eigen::Matrix<double, 6, 1> start_sigma(double search_px) {
+  Eigen::Matrix<double, 6, 1> sigma;
+  sigma.head<3>().setConstant(start_position_m * search_px / usual_search_px);
+  sigma.tail<3>().setConstant(start_angle_rad * search_px / usual_search_px);
   return sigma;
 }
 
@@ -69,6 +76,8 @@ struct SheetFit::Impl {
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
   bool approach(const PictureLight& light, const SheetFitStart& start);
+  bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
+                   const std::optional<Eigen::Matrix<double, 6, 1>>& sigma);
   void look(const PictureLight& light, double search_px, int half_breadth);
   void drop_odd_colours();
   bool move_by(const ParameterVector& change);
@@ -184,22 +193,33 @@ bool SheetFit::Impl::move_by(const ParameterVector& change) {
 
 // From the start to within a few pixels.
 bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& start) {
-  for (double search_px = start.search_px; search_px > 2.5; search_px *= 0.5) {
-    plan(start, 24.0);
-    wide.clear();
-    for (PlannedSite& site : sites) {
-      site.search_px = search_of(site, search_px);
-      wide.push_back(look_widely(light, site, site.search_px, profile));
-    }
-    const WideStep found_step = step_widely(sites, wide, prior(start), start_sigma(search_px));
-    if (found_step.agreeing < 8) {
-      refuse("too little paint was found near the start");
+  int looks = 0;
+  for (double search_px = start.search_px; search_px > close_look_px; search_px *= 0.5) {
+    const bool by_consensus = looks++ < 2;
+    if (!come_closer(light, start, search_px,
+                     by_consensus ? std::optional(start_sigma(search_px)) : std::nullopt)) {
       return false;
     }
-    if (!move_by(found_step.change)) {
-      refuse("the fit ran away");
-      return false;
-    }
+  }
+  return true;
+}
+
+bool SheetFit::Impl::come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
+                                 const std::optional<Eigen::Matrix<double, 6, 1>>& sigma) {
+  plan(start, wide_spacing_px);
+  wide.clear();
+  for (PlannedSite& site : sites) {
+    site.search_px = search_of(site, search_px);
+    wide.push_back(look_widely(light, site, site.search_px, profile));
+  }
+  const WideStep closer = step_widely(sites, wide, prior(start), sigma);
+  if (closer.agreeing < 8) {
+    refuse("too little paint was found near the start");
+    return false;
+  }
+  if (!move_by(closer.change)) {
+    refuse("the fit ran away");
+    return false;
   }
   return true;
 }
@@ -235,7 +255,8 @@ void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitSta
   const SheetCamera surface(lens, state.eMc, Ice{0.0, setup.ice.refractive_index});
   for (int side = 0; side < 2; ++side) {
     Sideline& line = state.sidelines[static_cast<std::size_t>(side)];
-    line = scan_sideline(light, bumper ? surface : paint, side == 0 ? -1.0 : 1.0, !bumper, range);
+    const Sideline scanned = scan_sideline(light, bumper ? surface : paint, side == 0 ? -1.0 : 1.0, !bumper, range);
+    if (scanned.known || !line.known) line = scanned;
     line.moves_camera = setup.sheet.sideline != SidelineKind::unknown;
   }
 }
@@ -312,7 +333,8 @@ void SheetFit::Impl::judge(const SheetFitStart& start) {
   by_twist.block<1, 3>(0, 3) = (c * setup.mount.x_m - s * setup.mount.y_m) * yaw_by_turn;
   by_twist.block<1, 3>(1, 3) = (s * setup.mount.x_m + c * setup.mount.y_m) * yaw_by_turn;
   const Eigen::Matrix3d planar = by_twist * result.covariance * by_twist.transpose();
-  result.sigma = {std::sqrt(planar(0, 0)), std::sqrt(planar(1, 1)), std::sqrt(planar(2, 2))};
+  result.sigma = {std::hypot(std::sqrt(planar(0, 0)), painted_sigma_m),
+                  std::hypot(std::sqrt(planar(1, 1)), painted_sigma_m), std::sqrt(planar(2, 2))};
   result.hog_distance_sigma_m = result.sigma.y_m;
   report_width();
   report_sites();
@@ -321,6 +343,8 @@ void SheetFit::Impl::judge(const SheetFitStart& start) {
     refuse("the fit is not determined");
   } else if (result.sites_used < 12) {
     refuse("too few places of paint were found");
+  } else if (result.sites_used < least_share * result.sites_tried) {
+    refuse("most of the paint is not where the fit puts it");
   } else if (result.residual_px > most_residual_px) {
     refuse("what was found does not fit a sheet");
   } else if (!(result.sigma.y_m < most_sigma_m)) {
@@ -339,7 +363,7 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
 
   if (!approach(light, start)) return result;
 
-  refine(light, start, 24.0, 3.0, 1);
+  refine(light, start, wide_spacing_px, close_look_px, 1);
   if (!move_by(step.change)) return refuse("the fit ran away");
 
   find_sidelines(light, start);
