@@ -95,28 +95,30 @@ Choice choose(const Candidates& seen, double model_px, double reach_px) {
 // A small generator with a fixed seed: the same picture gives the same answer.
 class Dice {
  public:
+  explicit Dice(int seed) : state_(20240229U + static_cast<std::uint64_t>(seed) * 7919U) {}
+
   std::size_t below(std::size_t n) {
     state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<std::size_t>((state_ >> 33U) % n);
   }
 
  private:
-  std::uint64_t state_ = 20240229;
+  std::uint64_t state_;
 };
 
 // Random sample consensus: the change by a few sites and the start's own sigma on which most sites agree.
 ParameterVector best_guess(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen,
-                           const Eigen::Matrix<double, 6, 1>& start_sigma) {
-  constexpr int guesses = 120;
+                           const Consensus& consensus) {
+  constexpr int guesses = 300;
   constexpr int sites_a_guess = 4;
   constexpr double site_sigma_px = 1.5;
   constexpr double reach_px = 6.0;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  Dice dice;
+  Dice dice(consensus.seed);
   Vector6 best = Vector6::Zero();
   double best_score = -1.0;
-  const Matrix6 information = start_sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  const Matrix6 information = consensus.start_sigma.cwiseAbs2().cwiseInverse().asDiagonal();
   for (int g = 0; g < guesses && !sites.empty(); ++g) {
     Matrix6 normal = information;
     Vector6 pull = Vector6::Zero();
@@ -171,9 +173,9 @@ void Prior::add(const ParameterRow& row, double value, double sigma) {
 }
 
 WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     const std::optional<Eigen::Matrix<double, 6, 1>>& start_sigma) {
+                     const std::optional<Consensus>& consensus) {
   WideStep step;
-  if (start_sigma) step.change = best_guess(sites, seen, *start_sigma);
+  if (consensus) step.change = best_guess(sites, seen, *consensus);
   constexpr int rounds = 6;
   double reach_px = 8.0;
   for (int k = 0; k < rounds; ++k) {

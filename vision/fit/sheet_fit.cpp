@@ -11,8 +11,9 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double wide_spacing_px = 28.0;
+constexpr double wide_spacing_px = 24.0;
 constexpr double close_look_px = 3.0;
+constexpr double rough_search_px = 10.0;  // a start that needs a wider search may lead astray
 
 constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
 
@@ -20,6 +21,8 @@ constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
 constexpr double most_sigma_m = 0.25;
 constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
 constexpr double most_residual_px = 1.5;
+constexpr float least_colour_agreement = 0.8F;  // cosine
+constexpr double convincing_share = 0.6;
 constexpr double least_share = 0.4;  // of the places looked at
 
 // Prior of a paint's width about what the scan saw, and of a divider's place.
@@ -75,9 +78,11 @@ struct SheetFit::Impl {
   void begin(const SheetFitStart& start);
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
-  bool approach(const PictureLight& light, const SheetFitStart& start);
+  bool arrive(const PictureLight& light, const SheetFitStart& start);
+  double borne_out() const;
+  bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
-                   const std::optional<Eigen::Matrix<double, 6, 1>>& sigma);
+                   const std::optional<Consensus>& consensus);
   void look(const PictureLight& light, double search_px, int half_breadth);
   void drop_odd_colours();
   bool move_by(const ParameterVector& change);
@@ -131,9 +136,11 @@ void SheetFit::Impl::begin(const SheetFitStart& start) {
   state = FitState{};
   state.eMc = start.eMc;
   state.paint_depth_m = setup.ice.paint_depth_m;
-  if (!start.sheet_width_m || setup.sheet.sideline != SidelineKind::line) return;
+  const bool drawn = setup.sheet.sideline == SidelineKind::line || setup.sheet.sideline == SidelineKind::bumper;
+  if (!start.sheet_width_m || !drawn) return;
   for (Sideline& line : state.sidelines) {
     line.known = true;
+    line.is_line = setup.sheet.sideline == SidelineKind::line;
     line.edge_m = 0.5 * *start.sheet_width_m;
   }
 }
@@ -191,28 +198,57 @@ bool SheetFit::Impl::move_by(const ParameterVector& change) {
   return true;
 }
 
-// From the start to within a few pixels.
-bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& start) {
+// From the start to within a pixel. Where much of the paint is not borne out, other draws of the consensus and a wider
+// search are tried, and the best of them is kept.
+bool SheetFit::Impl::arrive(const PictureLight& light, const SheetFitStart& start) {
+  const int attempts = start.search_px > rough_search_px ? 5 : 1;
+  double best_share = -1.0;
+  FitState best;
+  const FitState first = state;
+  for (int k = 0; k < attempts && best_share < convincing_share; ++k) {
+    state = first;
+    if (!approach(light, start, k)) continue;
+    refine(light, start, wide_spacing_px, close_look_px, 1);
+    const double share = borne_out();
+    if (share <= best_share || !move_by(step.change)) continue;
+    best_share = share;
+    best = state;
+  }
+  if (best_share < 0.0) {
+    if (result.reason.empty()) refuse("the fit ran away");
+    return false;
+  }
+  result.reason.clear();
+  state = best;
+  return true;
+}
+
+// The share of planned sites, weighed, that the fit rests on.
+double SheetFit::Impl::borne_out() const {
+  double sum = 0.0;
+  for (const double w : step.weight) sum += w;
+  return sites.empty() ? 0.0 : sum / static_cast<double>(sites.size());
+}
+
+bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& start, int attempt) {
   int looks = 0;
-  for (double search_px = start.search_px; search_px > close_look_px; search_px *= 0.5) {
-    const bool by_consensus = looks++ < 2;
-    if (!come_closer(light, start, search_px,
-                     by_consensus ? std::optional(start_sigma(search_px)) : std::nullopt)) {
-      return false;
-    }
+  const double widest_px = start.search_px * (attempt % 2 == 0 ? 1.0 : 1.4);
+  for (double search_px = widest_px; search_px > close_look_px; search_px *= 0.5) {
+    const std::optional<Consensus> consensus{{start_sigma(search_px), attempt}};
+    if (!come_closer(light, start, search_px, looks++ < 2 ? consensus : std::nullopt)) return false;
   }
   return true;
 }
 
 bool SheetFit::Impl::come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
-                                 const std::optional<Eigen::Matrix<double, 6, 1>>& sigma) {
+                                 const std::optional<Consensus>& consensus) {
   plan(start, wide_spacing_px);
   wide.clear();
   for (PlannedSite& site : sites) {
     site.search_px = search_of(site, search_px);
     wide.push_back(look_widely(light, site, site.search_px, profile));
   }
-  const WideStep closer = step_widely(sites, wide, prior(start), sigma);
+  const WideStep closer = step_widely(sites, wide, prior(start), consensus);
   if (closer.agreeing < 8) {
     refuse("too little paint was found near the start");
     return false;
@@ -229,19 +265,21 @@ void SheetFit::Impl::look(const PictureLight& light, double search_px, int half_
   for (const PlannedSite& site : sites) found.push_back(look_closely(light, site, search_px, half_breadth, profile));
 }
 
-// A ring keeps its colours all round: an edge of other colours is a stone, a shoe or a lamp.
+// An edge keeps its colours all along: one of other colours is a stone, a shoe, a logo or a lamp.
 void SheetFit::Impl::drop_odd_colours() {
+  const auto colour = [this](std::size_t i) -> Eigen::Vector3f {
+    return static_cast<float>(sites[i].sense) * Eigen::Map<const Eigen::Vector3f>(found[i].colour.data());
+  };
   for (int f = 0; f < paint_feature_count; ++f) {
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      if (sites[i].polarity_group == f && found[i].found)
-        mean += Eigen::Map<const Eigen::Vector3f>(found[i].colour.data());
+      if (sites[i].feature == f && found[i].found) mean += colour(i);
     }
     if (mean.isZero()) continue;
     mean.normalize();
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      if (sites[i].polarity_group != f || !found[i].found) continue;
-      if (mean.dot(Eigen::Map<const Eigen::Vector3f>(found[i].colour.data())) < 0.8F) found[i].found = false;
+      if (sites[i].feature != f || sites[i].sense == 0 || !found[i].found) continue;
+      if (mean.dot(colour(i)) < least_colour_agreement) found[i].found = false;
     }
   }
 }
@@ -361,10 +399,7 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
   if (std::string why = unusable(image, start); !why.empty()) return refuse(std::move(why));
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, response};
 
-  if (!approach(light, start)) return result;
-
-  refine(light, start, wide_spacing_px, close_look_px, 1);
-  if (!move_by(step.change)) return refuse("the fit ran away");
+  if (!arrive(light, start)) return result;
 
   find_sidelines(light, start);
   refine(light, start, 18.0, 2.5, 1);
