@@ -15,6 +15,11 @@ double tukey(double residual, double reach) {
   return k * k;
 }
 
+void add_square(const ParameterRow& row, double weight, ParameterMatrix& sum) {
+  const ParameterRow weighted = weight * row;
+  for (int k = 0; k < parameter::count; ++k) sum.col(k) += weighted[k] * row.transpose();
+}
+
 double median(std::vector<double>& values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -54,10 +59,9 @@ void solve(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurem
     if (step.weight[i] <= 0.0) continue;
     const double spread = step.scale * spread_of(sites[i], found[i]);
     const double w = step.weight[i] / (spread * spread);
-    step.information.selfadjointView<Eigen::Lower>().rankUpdate(sites[i].along.transpose(), w);
+    add_square(sites[i].along, w, step.information);
     pull += w * found[i].offset_px * sites[i].along.transpose();
   }
-  step.information = step.information.selfadjointView<Eigen::Lower>();
   step.change = step.information.ldlt().solve(pull);
 }
 
@@ -91,48 +95,54 @@ Choice choose(const Candidates& seen, double model_px, double reach_px) {
 // A small generator with a fixed seed: the same picture gives the same answer.
 class Dice {
  public:
+  explicit Dice(int seed) : state_(20240229U + static_cast<std::uint64_t>(seed) * 7919U) {}
+
   std::size_t below(std::size_t n) {
     state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<std::size_t>((state_ >> 33U) % n);
   }
 
  private:
-  std::uint64_t state_ = 20240229;
+  std::uint64_t state_;
 };
 
 // Random sample consensus: the change by a few sites and the start's own sigma on which most sites agree.
 ParameterVector best_guess(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen,
-                           const ParameterVector& start_sigma) {
-  constexpr int guesses = 150;
+                           const Consensus& consensus) {
+  constexpr int guesses = 300;
   constexpr int sites_a_guess = 4;
   constexpr double site_sigma_px = 1.5;
   constexpr double reach_px = 6.0;
-  Dice dice;
-  ParameterVector best = ParameterVector::Zero();
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  Dice dice(consensus.seed);
+  Vector6 best = Vector6::Zero();
   double best_score = -1.0;
-  const ParameterMatrix information = start_sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  const Matrix6 information = consensus.start_sigma.cwiseAbs2().cwiseInverse().asDiagonal();
   for (int g = 0; g < guesses && !sites.empty(); ++g) {
-    ParameterMatrix normal = information;
-    ParameterVector pull = ParameterVector::Zero();
+    Matrix6 normal = information;
+    Vector6 pull = Vector6::Zero();
     for (int k = 0; g > 0 && k < sites_a_guess; ++k) {
       const std::size_t i = dice.below(sites.size());
       if (seen[i].count == 0) continue;
       const auto& pick = seen[i].at[dice.below(static_cast<std::size_t>(std::min(seen[i].count, 2)))];
-      const ParameterVector row = sites[i].along.transpose() / site_sigma_px;
+      const Vector6 row = sites[i].along.head<6>().transpose() / site_sigma_px;
       normal.noalias() += row * row.transpose();
       pull += pick.offset_px / site_sigma_px * row;
     }
-    const ParameterVector change = normal.ldlt().solve(pull);
+    const Vector6 change = normal.llt().solve(pull);
     double score = 0.0;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      if (seen[i].count > 0) score += choose(seen[i], sites[i].along.dot(change), reach_px).weight;
+      if (seen[i].count > 0) score += choose(seen[i], sites[i].along.head<6>().dot(change), reach_px).weight;
     }
     if (score > best_score) {
       best_score = score;
       best = change;
     }
   }
-  return best;
+  ParameterVector change = ParameterVector::Zero();
+  change.head<6>() = best;
+  return change;
 }
 
 // A feature of which most was found elsewhere than the others say is something else.
@@ -163,10 +173,10 @@ void Prior::add(const ParameterRow& row, double value, double sigma) {
 }
 
 WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     const ParameterVector& start_sigma) {
+                     const std::optional<Consensus>& consensus) {
   WideStep step;
-  step.change = best_guess(sites, seen, start_sigma);
-  constexpr int rounds = 8;
+  if (consensus) step.change = best_guess(sites, seen, *consensus);
+  constexpr int rounds = 6;
   double reach_px = 8.0;
   for (int k = 0; k < rounds; ++k) {
     ParameterMatrix information = prior.information;
@@ -179,10 +189,9 @@ WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Ca
       const Choice choice = choose(seen[i], sites[i].along.dot(step.change), reach_px);
       if (choice.weight <= 0.0) continue;
       ++step.agreeing;
-      information.selfadjointView<Eigen::Lower>().rankUpdate(sites[i].along.transpose(), choice.weight);
+      add_square(sites[i].along, choice.weight, information);
       pull += choice.weight * choice.offset_px * sites[i].along.transpose();
     }
-    information = information.selfadjointView<Eigen::Lower>();
     step.change = information.ldlt().solve(pull);
     step.agreeing_share = looked > 0 ? static_cast<double>(step.agreeing) / looked : 0.0;
     reach_px = std::max(2.0, 0.75 * reach_px);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "vision/fit/fit_parameters.hpp"
@@ -20,15 +21,21 @@ struct Prior {
   void add(const ParameterRow& row, double value, double sigma);
 };
 
+/// How random samples are drawn: from how wrong the start may be, by a generator with this seed.
+struct Consensus {
+  Eigen::Matrix<double, 6, 1> start_sigma;  ///< of the twist
+  int seed = 0;
+};
+
 /// The change that brings most candidates together, each site choosing among its own: a consensus of random samples,
-/// drawn from how wrong the start may be (`start_sigma`), then weights by Tukey whose reach shrinks to two pixels.
+/// (none: from no change), then weights by Tukey whose reach shrinks to two pixels.
 struct WideStep {
   ParameterVector change = ParameterVector::Zero();
   double agreeing_share = 0.0;
   int agreeing = 0;
 };
 WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Candidates>& seen, const Prior& prior,
-                     const ParameterVector& start_sigma);
+                     const std::optional<Consensus>& consensus);
 
 /// The robust change over subpixel places, with what is needed to judge it. Buffers keep their room.
 struct CloseStep {

@@ -119,7 +119,7 @@ struct Planner {
       Eigen::Vector2d per_px;
       if (!place(feature, curve, u, seen, site, per_px)) return;
       site.stretch = stretch;
-      site.polarity_group = feature;
+      site.sense = 1;
       site.curvature = curvature(curve, u, site, seen);
       sites.push_back(site);
     });
@@ -135,7 +135,6 @@ struct Planner {
       Eigen::Vector2d per_px;
       if (!place(feature, middle, u, seen, site, per_px)) return;
       site.stretch = stretch;
-      site.polarity_group = -1;
       const Curve first{shape, first_m, side};
       const Curve second{shape, second_m, side};
       const auto p1 = camera.project_paint(first.at(u));
@@ -173,7 +172,7 @@ struct Planner {
     Eigen::Vector2d per_px;
     if (!place(feature, curve, u, *seen, site, per_px)) return;
     site.stretch = stretch;
-    site.polarity_group = -1;
+    site.sense = by_width > 0.0 ? -1 : 1;
     if (edge_parameter >= 0) {
       const double by_x = curve.side * site.normal.dot(seen->by_paint.col(0));
       site.along[edge_parameter] = by_x;

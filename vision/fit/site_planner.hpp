@@ -14,7 +14,7 @@ struct PlannedSite {
   int feature = 0;
   int stretch = 0;         ///< number of the piece of the feature it lies on: neighbours share errors
   bool step = true;        ///< an edge; false: a line with both its edges, located as one
-  int polarity_group = 0;  ///< sites whose change of colour must agree; -1 for none
+  int sense = 0;           ///< of an edge: 1 or -1, its colours change as the feature's do or the other way; 0: any
   Eigen::Vector2d pixel;   ///< predicted
   Eigen::Vector2d normal;  ///< unit, in the picture
   ParameterRow along;      ///< d(normal . pixel)/d(parameters)
