@@ -1,0 +1,35 @@
+// The rig file: one robot, its cameras, and what is known of the sheet. The same schema for simulation and steel.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "vision/camera_setup.hpp"
+
+namespace hogline::config {
+
+/// The circular boundary of a stone's handle.
+struct StoneHandle {
+  double radius_m = 0.0;
+  double height_m = 0.0;
+};
+
+struct Rig {
+  std::string file;
+  std::optional<vision::CameraSetup> near_camera;
+  std::optional<vision::CameraSetup> low_camera;
+  std::optional<vision::CameraSetup> far_camera;
+  StoneHandle stone;
+
+  /// One of the cameras by its key: near, low or far. Throws ConfigError where the rig has none of that name.
+  const vision::CameraSetup& camera(std::string_view name) const;
+};
+
+/// Reads and checks a rig file. Throws ConfigError.
+Rig load_rig(const std::string& path);
+
+/// The same from text; `name` stands in messages.
+Rig parse_rig(std::string_view text, const std::string& name);
+
+}  // namespace hogline::config

@@ -1,0 +1,109 @@
+#include <gsl/gsl_errno.h>
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "src/config/config_error.hpp"
+#include "src/demo_command.hpp"
+#include "src/exit_status.hpp"
+#include "src/pose_command.hpp"
+#include "src/throw_command.hpp"
+
+namespace {
+
+using hogline::ExitStatus;
+
+// GSL's default handler aborts the program on a singular matrix; results are checked for finiteness instead.
+void prepare_libraries() {
+  gsl_set_error_handler_off();
+  cv::setNumThreads(1);
+}
+
+CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
+  auto* pose = app.add_subcommand("pose", "the sheet's pose from pictures, one JSON object a line");
+  pose->add_option("--rig", options.rig, "rig file (YAML): the camera and what is known of the sheet")->required();
+  pose->add_option("--camera", options.camera, "which camera of the rig took the pictures")
+      ->required()
+      ->check(CLI::IsMember({"near", "low"}));
+  pose->add_flag("--sequence", options.sequence, "the pictures are consecutive frames of one run (low camera)");
+  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence")->capture_default_str();
+  pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
+  pose->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  pose->footer(
+      "Examples:\n"
+      "  hogline pose --rig rig.yaml --camera near frame.jpg\n"
+      "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+  return pose;
+}
+
+void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
+  app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
+  app->add_option("--scenario", options.scenario,
+                  "scenario file (YAML) of the simulated rink; without it the practice rink");
+  app->add_option("--speed", options.speed_mps, "of the stone at release, m/s")->capture_default_str();
+  app->add_option("--heading-deg", options.heading_deg, "of the shot's line, counter-clockwise from down-ice")
+      ->capture_default_str();
+  app->add_option("--curl", options.curl, "the stone's turn seen from above: cw curls right, ccw left")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cw", "ccw"}));
+  app->add_option("--spin", options.spin_radps, "the stone's rate of turn at release, rad/s")->capture_default_str();
+  app->add_option("--seed", options.seed, "of all that is random in the simulation")->capture_default_str();
+  app->add_option("--out", options.out, "folder for pictures, plots and the log")->capture_default_str();
+}
+
+CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
+  auto* command = app.add_subcommand("throw", "the thrower on the simulated rink: align, run, release");
+  add_shot(command, options);
+  command->add_flag("--json", options.json_only, "print nothing but the JSON object");
+  command->add_option("--fault", options.fault, "inject a fault: KIND@SECONDS of the run, e.g. camera-freeze@1.0")
+      ->check(hogline::known_fault);
+  command->footer(
+      "Example:\n"
+      "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration.");
+  return command;
+}
+
+CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
+  auto* demo = app.add_subcommand("demo", "one whole throw on the simulated rink, with pictures and a report");
+  add_shot(demo, options);
+  demo->footer("Example:\n  hogline demo --out out/demo");
+  return demo;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
+  app.set_version_flag("--version", HOGLINE_VERSION);
+  app.require_subcommand(1);
+  hogline::PoseOptions pose_options;
+  hogline::ThrowOptions throw_options;
+  hogline::ThrowOptions demo_options;
+  const auto* pose = add_pose(app, pose_options);
+  const auto* throwing = add_throw(app, throw_options);
+  const auto* demo = add_demo(app, demo_options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? ExitStatus::success : ExitStatus::wrong_use;
+  }
+  if (*pose) return hogline::run_pose(pose_options);
+  if (*throwing) return hogline::run_throw(throw_options);
+  if (*demo) return hogline::run_demo(demo_options);
+  return ExitStatus::wrong_use;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  prepare_libraries();
+  try {
+    return run(argc, argv);
+  } catch (const hogline::config::ConfigError& e) {
+    fprintf(stderr, "hogline: %s\n", e.what());
+    return ExitStatus::wrong_use;
+  } catch (const std::exception& e) {
+    fprintf(stderr, "hogline: %s\n", e.what());
+    return ExitStatus::wrong_use;
+  }
+}

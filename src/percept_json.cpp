@@ -1,0 +1,54 @@
+#include "src/percept_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace hogline {
+namespace {
+
+using nlohmann::ordered_json;
+
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+// Enough digits for any camera, few enough to read.
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+void add_estimate(ordered_json& line, const SheetPosePercept& p) {
+  line["yaw_deg"] = degrees(p.body.yaw_rad);
+  line["x_m"] = p.body.x_m;
+  line["y_m"] = p.body.y_m;
+  line["hog_distance_m"] = p.hog_distance_m;
+  line["sheet_width_m"] = p.sheet_width_m ? ordered_json(*p.sheet_width_m) : ordered_json(nullptr);
+  line["eMc"] = p.eMc;
+  line["sigma"] = {{"yaw_deg", degrees(p.sigma.yaw_rad)},
+                   {"x_m", p.sigma.x_m},
+                   {"y_m", p.sigma.y_m},
+                   {"hog_distance_m", p.hog_distance_sigma_m}};
+  line["residual_px"] = p.residual_px;
+}
+
+void add_nothing(ordered_json& line) {
+  for (const char* key : {"yaw_deg", "x_m", "y_m", "hog_distance_m", "sheet_width_m", "eMc", "sigma", "residual_px"}) {
+    line[key] = nullptr;
+  }
+}
+
+}  // namespace
+
+std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms) {
+  ordered_json line;
+  line["image"] = image;
+  line["ok"] = percept.ok;
+  if (percept.ok) {
+    add_estimate(line, percept);
+  } else {
+    add_nothing(line);
+  }
+  line["features"] = percept.features;
+  line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
+  line["reason"] = percept.reason.empty() ? ordered_json(nullptr) : ordered_json(percept.reason);
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace hogline

@@ -1,0 +1,13 @@
+// Percepts as the program prints them: one JSON object a line, keys in a fixed order.
+#pragma once
+
+#include <string>
+
+#include "vision/percepts/sheet_pose.hpp"
+
+namespace hogline {
+
+/// One line without its newline. Where the percept is not ok every estimate is null and `reason` says why.
+std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms);
+
+}  // namespace hogline

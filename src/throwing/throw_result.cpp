@@ -1,0 +1,49 @@
+#include "src/throwing/throw_result.hpp"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace hogline {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double deg = 180.0 / std::numbers::pi;
+
+template <typename T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json release_json(const ReleaseOutcome& r) {
+  return {{"hog_distance_m", r.hog_distance_m},
+          {"target_hog_distance_m", r.target_hog_distance_m},
+          {"error_mm", 1000.0 * (r.hog_distance_m - r.target_hog_distance_m)},
+          {"speed_error_mps", r.speed_error_mps},
+          {"heading_error_deg", r.heading_error_rad * deg},
+          {"lateral_error_mm", 1000.0 * r.lateral_error_m},
+          {"spin_error_radps", r.spin_error_radps}};
+}
+
+}  // namespace
+
+std::string result_line(const ThrowResult& result) {
+  ordered_json line;
+  line["ok"] = result.ok;
+  line["release"] = result.release ? release_json(*result.release) : ordered_json(nullptr);
+  line["hog_line_violation"] = result.hog_line_violation;
+  line["stone_burned"] = result.stone_burned;
+  line["yaw_after_alignment_deg"] =
+      result.yaw_after_alignment_rad ? ordered_json(*result.yaw_after_alignment_rad * deg) : ordered_json(nullptr);
+  line["states"] = ordered_json::array();
+  for (const StateTime& s : result.states) line["states"].push_back({{"name", s.name}, {"t_s", s.t_s}});
+  line["abort"] = or_null(result.abort);
+  line["stop_hog_distance_m"] = result.stop_hog_distance_m;
+  line["rest"] =
+      result.rest ? ordered_json{{"x_m", result.rest->x_m}, {"y_m", result.rest->y_m}} : ordered_json(nullptr);
+  line["sim_time_s"] = result.sim_time_s;
+  line["wall_time_s"] = result.wall_time_s;
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace hogline

@@ -1,0 +1,130 @@
+#include "src/throwing/thrower_loop.hpp"
+
+#include <fmt/format.h>
+
+#include "vision/geometry/sheet.hpp"
+
+namespace hogline {
+namespace {
+
+// Devices that have not answered yet have the epoch as their stamp.
+bool heard(Stamp stamp) { return stamp != Stamp{}; }
+
+std::optional<std::string> first_error(const ThrowerDevices& devices) {
+  for (const auto& error : {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
+                            devices.gyro.state().error, devices.near_camera.error(), devices.low_camera.error()}) {
+    if (error) return fmt::format("{}: {}: {}", error->device, to_string(error->kind), error->what);
+  }
+  return std::nullopt;
+}
+
+std::optional<servo::WheelObservation> observe_wheels(const hw::DriveState& drive) {
+  if (!heard(drive.stamp)) return std::nullopt;
+  return servo::WheelObservation{
+      .stamp = drive.stamp,
+      .left_radps = drive.measured.left_radps,
+      .right_radps = drive.measured.right_radps,
+      .ready = drive.phase == hw::DrivePhase::ready || drive.phase == hw::DrivePhase::stopped,
+      .enabled = drive.phase == hw::DrivePhase::enabled,
+  };
+}
+
+std::optional<servo::GripperObservation> observe_gripper(const hw::GripperState& gripper) {
+  if (!heard(gripper.stamp)) return std::nullopt;
+  return servo::GripperObservation{
+      .stamp = gripper.stamp,
+      .holding = gripper.jaws == hw::JawState::holding,
+      .open = gripper.jaws == hw::JawState::open || gripper.opening_since.has_value(),
+      .spin_radps = gripper.spin_radps,
+      .opening_since = gripper.opening_since,
+  };
+}
+
+std::optional<servo::ArmObservation> observe_arm(const hw::ArmState& arm) {
+  if (!heard(arm.stamp)) return std::nullopt;
+  return servo::ArmObservation{.stamp = arm.stamp,
+                               .folded = arm.position == hw::ArmPosition::folded,
+                               .unfolded = arm.position == hw::ArmPosition::unfolded};
+}
+
+std::optional<servo::GyroObservation> observe_gyro(const hw::GyroState& gyro) {
+  if (!heard(gyro.stamp)) return std::nullopt;
+  return servo::GyroObservation{.stamp = gyro.stamp, .rate_radps = gyro.rate_radps, .valid = gyro.valid};
+}
+
+}  // namespace
+
+ThrowerLoop::ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower)
+    : devices_(devices), eyes_(std::move(eyes)), thrower_(std::move(thrower)) {}
+
+void ThrowerLoop::step(Stamp now, Duration dt) {
+  devices_.drive.step(now);
+  devices_.gripper.step(now);
+  devices_.arm.step(now);
+  devices_.gyro.step(now);
+  eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
+
+  command_ = thrower_.step(observe(now), dt);
+  apply(command_, now);
+}
+
+servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {
+  return {.now = now,
+          .wheels = observe_wheels(devices_.drive.state()),
+          .gyro = observe_gyro(devices_.gyro.state()),
+          .gripper = observe_gripper(devices_.gripper.state()),
+          .arm = observe_arm(devices_.arm.state()),
+          .near_view = eyes_.near_view(),
+          .low_view = eyes_.low_view(),
+          .device_error = first_error(devices_)};
+}
+
+// The width and the rough place are known since the near view; what the filter believes confines the search.
+vision::LowViewPrediction ThrowerLoop::low_view_hint() const {
+  vision::LowViewPrediction hint;
+  if (!eyes_.near_view() || !eyes_.near_view()->ok) return hint;
+  const servo::ThrowerDiagnosis& belief = thrower_.diagnosis();
+  hint.sheet_width_m = eyes_.near_view()->sheet_width_m;
+  const double x_m =
+      eyes_.low_view() && eyes_.low_view()->ok ? eyes_.low_view()->body.x_m : eyes_.near_view()->body.x_m;
+  hint.body =
+      PlanarPose{.x_m = x_m, .y_m = vision::rules::tee_to_hog_m - belief.hog_distance_m, .yaw_rad = belief.yaw_rad};
+  constexpr double lateral_sigma_m = 0.1;  // the offset wanders by centimetres between two looks
+  hint.body_sigma = {.x_m = lateral_sigma_m, .y_m = belief.hog_distance_sigma_m, .yaw_rad = belief.yaw_sigma_rad};
+  return hint;
+}
+
+void ThrowerLoop::apply(const servo::ThrowerCommand& command, Stamp now) {
+  switch (command.drive.order) {
+    case servo::DriveOrder::off:
+      break;
+    case servo::DriveOrder::enable:
+      devices_.drive.enable();
+      break;
+    case servo::DriveOrder::velocity:
+      devices_.drive.command({command.drive.left_radps, command.drive.right_radps}, now);
+      break;
+    case servo::DriveOrder::quick_stop:
+      devices_.drive.quick_stop();
+      break;
+  }
+  switch (command.arm) {
+    case servo::ArmOrder::hold:
+      break;
+    case servo::ArmOrder::fold:
+      devices_.arm.fold();
+      break;
+    case servo::ArmOrder::unfold:
+      devices_.arm.unfold();
+      break;
+  }
+  if (command.gripper.release) {
+    devices_.gripper.release();
+    if (!releasing_) devices_.gripper.step(now);  // at once: a control period is a centimetre
+    releasing_ = true;
+  } else {
+    devices_.gripper.spin(command.gripper.spin_radps);
+  }
+}
+
+}  // namespace hogline

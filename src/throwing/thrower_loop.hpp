@@ -1,0 +1,34 @@
+// One control period of the thrower: devices to observation, controller, command to devices. It knows only the ports,
+// and is the same on the simulated rink and on steel.
+#pragma once
+
+#include "servo/thrower.hpp"
+#include "src/throwing/thrower_devices.hpp"
+#include "src/throwing/thrower_eyes.hpp"
+
+namespace hogline {
+
+class ThrowerLoop {
+ public:
+  ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower);
+
+  /// `now` is the present time, `dt` the time since the last call.
+  void step(Stamp now, Duration dt);
+
+  const servo::Thrower& thrower() const { return thrower_; }
+  const ThrowerEyes& eyes() const { return eyes_; }
+  const servo::ThrowerCommand& command() const { return command_; }
+
+ private:
+  servo::ThrowerObservation observe(Stamp now) const;
+  vision::LowViewPrediction low_view_hint() const;
+  void apply(const servo::ThrowerCommand& command, Stamp now);
+
+  ThrowerDevices devices_;
+  ThrowerEyes eyes_;
+  servo::Thrower thrower_;
+  servo::ThrowerCommand command_;
+  bool releasing_ = false;
+};
+
+}  // namespace hogline
