@@ -1,6 +1,9 @@
 #include "vision/near_view_sketch.hpp"
 
-#include "vision/fit/painted_features.hpp"
+#include <algorithm>
+#include <cmath>
+
+#include "vision/geometry/sheet.hpp"
 #include "vision/geometry/sheet_camera.hpp"
 
 namespace hogline::vision {
@@ -18,6 +21,31 @@ PolyLine bent(const LineCandidate& line, const GroundView& view) {
   return poly;
 }
 
+// A straight line on the sheet in short pieces: the lens bends it.
+std::vector<Eigen::Vector2d> stretch(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const int pieces = std::max(1, static_cast<int>((to - from).norm() / 0.05));
+  std::vector<Eigen::Vector2d> curve;
+  for (int i = 0; i <= pieces; ++i) curve.push_back(from + static_cast<double>(i) / pieces * (to - from));
+  return curve;
+}
+
+// The parts of a painted curve that lie in the picture.
+void add_visible(const std::vector<Eigen::Vector2d>& curve, const SheetCamera& camera, std::vector<PolyLine>& lines) {
+  PolyLine line;
+  for (const Eigen::Vector2d& paint : curve) {
+    const auto pixel = camera.project_paint(paint);
+    if (pixel && camera.lens().in_picture(*pixel)) {
+      line.push_back(*pixel);
+    } else if (line.size() > 1) {
+      lines.push_back(std::move(line));
+      line = {};
+    } else {
+      line.clear();
+    }
+  }
+  if (line.size() > 1) lines.push_back(std::move(line));
+}
+
 }  // namespace
 
 void draw_candidates(const LineClasses& classes, const GroundView& view, NearViewSketch& sketch) {
@@ -32,27 +60,24 @@ void draw_model(const Pose& eMc, const CameraSetup& setup, std::optional<double>
 
 std::vector<std::vector<Eigen::Vector2d>> model_lines(const Pose& eMc, const CameraSetup& setup,
                                                       std::optional<double> width_m) {
-  const SheetCamera camera(Lens(setup.intrinsics), eMc, setup.ice);
-  std::vector<PaintedFeature> features = fixed_features();
+  const double half_width_m = 0.5 * width_m.value_or(rules::min_width_m);
+  std::vector<std::vector<Eigen::Vector2d>> curves;
+  for (const double radius : rules::ring_radii_m) {
+    curves.emplace_back();
+    for (double a = 0.0; a < 6.3; a += 0.02) curves.back().emplace_back(radius * std::cos(a), radius * std::sin(a));
+  }
+  for (const CrossLine& line : cross_lines()) {
+    curves.push_back(stretch({-half_width_m, line.centre_y_m()}, {half_width_m, line.centre_y_m()}));
+  }
+  curves.push_back(stretch({0.0, centre_line_begin_y_m}, {0.0, centre_line_end_y_m}));
   if (width_m) {
-    features.push_back(sideline(PaintedFeature::Place::left_sideline, *width_m));
-    features.push_back(sideline(PaintedFeature::Place::right_sideline, *width_m));
-  }
-  std::vector<PolyLine> lines;
-  for (const PaintedFeature& f : features) {
-    const double step = f.shape == PaintedFeature::Shape::circle ? 0.02 : 0.05;
-    PolyLine line;
-    for (double p = f.begin_m; p <= f.end_m + step; p += step) {
-      const auto pixel = camera.project_paint(point_on(f, p).at);
-      if (pixel && camera.lens().in_picture(*pixel)) {
-        line.push_back(*pixel);
-      } else if (!line.empty()) {
-        lines.push_back(std::move(line));
-        line = {};
-      }
+    for (const double x : {-half_width_m, half_width_m}) {
+      curves.push_back(stretch({x, centre_line_begin_y_m}, {x, centre_line_end_y_m}));
     }
-    if (line.size() > 1) lines.push_back(std::move(line));
   }
+  const SheetCamera camera(Lens(setup.intrinsics), eMc, setup.ice);
+  std::vector<PolyLine> lines;
+  for (const auto& curve : curves) add_visible(curve, camera, lines);
   return lines;
 }
 

@@ -5,39 +5,73 @@
 #include <cmath>
 
 namespace hogline::vision {
+namespace {
 
-ProfileReader::ProfileReader(const cv::Mat& image, const ResponseCurve& response) : image_(image), response_(response) {
-  assert(image.type() == CV_8UC3 || image.type() == CV_8UC1);
+bool inside(const Picture& picture, const Eigen::Vector2d& p) {
+  return p.x() >= 0.0 && p.y() >= 0.0 && p.x() < picture.width_px - 1 && p.y() < picture.height_px - 1;
 }
 
-bool ProfileReader::read(const Eigen::Vector2d& centre, const Eigen::Vector2d& normal, double half_px,
-                         Profile& profile) const {
-  const int half = static_cast<int>(std::ceil(half_px / Profile::step_px));
-  profile.size = std::min(2 * half + 1, Profile::max_samples);
-  const Eigen::Vector2d begin = centre + profile.offset_px(0) * normal;
-  const Eigen::Vector2d end = centre + profile.offset_px(profile.size - 1) * normal;
-  const auto inside = [this](const Eigen::Vector2d& p) {
-    return p.x() >= 0.0 && p.y() >= 0.0 && p.x() < image_.cols - 1 && p.y() < image_.rows - 1;
-  };
-  if (!inside(begin) || !inside(end)) return false;
+bool corners_inside(const Picture& picture, const Cut& cut, const Eigen::Vector2d& tangent) {
+  const double side = cut.half_breadth;
+  for (const double along : {cut.first_px, cut.last_px}) {
+    const Eigen::Vector2d p = cut.centre + along * cut.normal;
+    if (!inside(picture, p + side * tangent) || !inside(picture, p - side * tangent)) return false;
+  }
+  return true;
+}
 
-  const int channels = image_.channels();
-  for (int i = 0; i < profile.size; ++i) {
-    const Eigen::Vector2d p = centre + profile.offset_px(i) * normal;
-    const int x = static_cast<int>(p.x());
-    const int y = static_cast<int>(p.y());
-    const auto fx = static_cast<float>(p.x() - x);
-    const auto fy = static_cast<float>(p.y() - y);
-    const std::uint8_t* upper = image_.ptr<std::uint8_t>(y) + x * channels;
-    const std::uint8_t* lower = image_.ptr<std::uint8_t>(y + 1) + x * channels;
-    for (int c = 0; c < channels; ++c) {
-      const float a = response_.linear(upper[c]) * (1.0F - fx) + response_.linear(upper[c + channels]) * fx;
-      const float b = response_.linear(lower[c]) * (1.0F - fx) + response_.linear(lower[c + channels]) * fx;
-      profile.light[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = a * (1.0F - fy) + b * fy;
+template <int channels>
+void add_sample(const Picture& picture, const ResponseCurve& response, float x, float y, std::array<float, 3>& sum) {
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const float u = x - static_cast<float>(column);
+  const float v = y - static_cast<float>(row);
+  const std::uint8_t* top = picture.pixels + static_cast<std::size_t>(row) * picture.row_bytes + column * channels;
+  const std::uint8_t* low = top + picture.row_bytes;
+  for (int c = 0; c < channels; ++c) {
+    const float a = response.linear(top[c]);
+    const float b = response.linear(top[c + channels]);
+    const float d = response.linear(low[c]);
+    const float e = response.linear(low[c + channels]);
+    const float upper = a + u * (b - a);
+    sum[static_cast<std::size_t>(c)] += upper + v * (d + u * (e - d) - upper);
+  }
+}
+
+template <int channels>
+void fill(const Picture& picture, const ResponseCurve& response, const Cut& cut, Profile& profile) {
+  const Eigen::Vector2f normal = cut.normal.cast<float>();
+  const Eigen::Vector2f tangent(-normal.y(), normal.x());
+  const Eigen::Vector2f centre = cut.centre.cast<float>();
+  const float share = 1.0F / static_cast<float>(2 * cut.half_breadth + 1);
+  for (int i = 0; i < profile.count; ++i) {
+    const Eigen::Vector2f p = centre + static_cast<float>(profile.position(i)) * normal;
+    std::array<float, 3> sum{};
+    for (int side = -cut.half_breadth; side <= cut.half_breadth; ++side) {
+      const Eigen::Vector2f q = p + static_cast<float>(side) * tangent;
+      add_sample<channels>(picture, response, std::max(q.x(), 0.0F), std::max(q.y(), 0.0F), sum);
     }
-    for (int c = channels; c < 3; ++c) {
-      profile.light[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = 0.0F;
-    }
+    for (std::size_t c = 0; c < channels; ++c) profile.light[c][static_cast<std::size_t>(i)] = share * sum[c];
+  }
+}
+
+}  // namespace
+
+bool sample(const Picture& picture, const ResponseCurve& response, const Cut& cut, Profile& profile) {
+  assert((picture.channels == 1 || picture.channels == 3) && cut.step_px > 0.0);
+  profile.count = 0;
+  profile.channels = picture.channels;
+  profile.first_px = cut.first_px;
+  profile.step_px = cut.step_px;
+  const double samples = std::floor((cut.last_px - cut.first_px) / cut.step_px + 1e-9) + 1.0;
+  const Eigen::Vector2d tangent(-cut.normal.y(), cut.normal.x());
+  if (!(samples >= 1.0 && samples <= Profile::max_samples) || !corners_inside(picture, cut, tangent)) return false;
+
+  profile.count = static_cast<int>(samples);
+  if (picture.channels == 1) {
+    fill<1>(picture, response, cut, profile);
+  } else {
+    fill<3>(picture, response, cut, profile);
   }
   return true;
 }

@@ -1,37 +1,49 @@
-// A profile: linear light along a short straight stroke across an expected edge in the raw picture.
+// A cut through the raw picture along a normal, in linear light.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <opencv2/core/mat.hpp>
+#include <cstddef>
+#include <cstdint>
 
 #include "vision/geometry/response_curve.hpp"
 
 namespace hogline::vision {
 
-/// Samples every `step_px` from -half to +half along the normal; at(c)[i] is channel c at offset(i). No heap.
-struct Profile {
-  static constexpr int max_samples = 161;
-  static constexpr double step_px = 0.5;
+/// Someone else's 8-bit pixels: one channel, or three interleaved (BGR).
+struct Picture {
+  const std::uint8_t* pixels = nullptr;
+  int width_px = 0;
+  int height_px = 0;
+  int channels = 0;
+  std::size_t row_bytes = 0;
+};
 
-  int size = 0;
+/// Samples at equal steps along the normal; sample i lies `first_px + i * step_px` from the centre.
+struct Profile {
+  static constexpr int max_samples = 160;
+  int count = 0;
+  int channels = 0;
+  double first_px = 0.0;
+  double step_px = 1.0;
   std::array<std::array<float, max_samples>, 3> light{};
 
-  double offset_px(double index) const { return (index - 0.5 * (size - 1)) * step_px; }
+  double position(int i) const { return first_px + i * step_px; }
 };
 
-/// Reads profiles from one picture, CV_8UC3 or CV_8UC1, which must outlive the reader. Only the pixels a profile
-/// touches are read; bilinear, in linear light.
-class ProfileReader {
- public:
-  ProfileReader(const cv::Mat& image, const ResponseCurve& response);
-
-  /// False when the stroke leaves the picture. Precondition: `normal` is a unit vector; half_px <= 40.
-  bool read(const Eigen::Vector2d& centre, const Eigen::Vector2d& normal, double half_px, Profile& profile) const;
-
- private:
-  const cv::Mat& image_;
-  const ResponseCurve& response_;
+/// Where to cut. Each sample is the mean of `2 * half_breadth + 1` interpolated values one pixel apart along the
+/// tangent: noise falls by its root, and a straight edge does not move.
+struct Cut {
+  Eigen::Vector2d centre;  ///< pixel centres at integers
+  Eigen::Vector2d normal;  ///< unit
+  double first_px = 0.0;   ///< of the first sample, along the normal
+  double last_px = 0.0;    ///< the last sample lies at most here
+  double step_px = 1.0;
+  int half_breadth = 0;
 };
+
+/// Bilinear samples; every tap is brought to linear light first. False, and an empty profile, when the cut leaves the
+/// picture or has more than Profile::max_samples samples. Precondition: 1 or 3 channels, step_px > 0.
+bool sample(const Picture& picture, const ResponseCurve& response, const Cut& cut, Profile& profile);
 
 }  // namespace hogline::vision
