@@ -18,6 +18,7 @@ constexpr int bins = static_cast<int>((rules::max_width_m - rules::min_width_m) 
 constexpr double parallel_cosine = 0.97;
 constexpr int fewest_points = 40;
 constexpr std::size_t most_voters = 2500;
+constexpr double peak_share = 0.9;  // of the most votes: what lies above is as good
 
 /// An edge point that may lie on a sideline or on a ring, in e's axes about the body but not yet moved there.
 struct Voter {
@@ -140,18 +141,18 @@ std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, cons
     const double lean = (i - lean_steps) * lean_step_rad;
     scores[static_cast<std::size_t>(i)] = poll.score(body_before(hog, centre_x_m, lean, view), lean);
   }
-  std::size_t best = 0;
-  double most = 0.0;
+  std::array<double, 2 * lean_steps + 1> votes{};
   for (std::size_t i = 1; i + 1 < scores.size(); ++i) {
     const double lean = (static_cast<double>(i) - lean_steps) * lean_step_rad;
     const double prior = std::exp(-0.125 * lean * lean / (lean_sigma_rad * lean_sigma_rad));
-    const double votes = prior * (scores[i - 1].sum() + 2.0 * scores[i].sum() + scores[i + 1].sum());
-    if (votes <= most) continue;
-    most = votes;
-    best = i;
+    votes[i] = prior * (scores[i - 1].sum() + 2.0 * scores[i].sum() + scores[i + 1].sum());
   }
+  const auto peak = std::max_element(votes.begin(), votes.end());
+  const auto best = static_cast<std::size_t>(peak - votes.begin());
   if (scores[best].sum() < fewest_points) return std::nullopt;
+  const auto high = std::count_if(votes.begin(), votes.end(), [&](double v) { return v > peak_share * *peak; });
   return LeanVote{.lean_rad = (static_cast<double>(best) - lean_steps) * lean_step_rad,
+                  .sigma_rad = lean_step_rad * (0.5 + 0.5 * static_cast<double>(high)),
                   .sideline_points = static_cast<int>(scores[best].sideline),
                   .width_m = scores[best].width_m,
                   .ring_points = static_cast<int>(scores[best].ring)};

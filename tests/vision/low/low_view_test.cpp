@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <opencv2/core.hpp>
 
 #include "tests/vision/low/painted_ice.hpp"
+#include "tests/vision/scene.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -35,6 +37,7 @@ void expect_seen(const SheetPosePercept& seen, const PaintedSheet& sheet) {
 
 struct SheetCase {
   const char* description;
+  SidelineKind kind;  ///< what the rig says
   std::optional<double> left_sideline_m;
   std::optional<double> right_sideline_m;
   double width_m;
@@ -44,7 +47,8 @@ struct SheetCase {
 class OnAnySheet : public ::testing::TestWithParam<SheetCase> {};
 
 TEST_P(OnAnySheet, measures_the_hog_line) {
-  const CameraSetup setup = low_camera();
+  CameraSetup setup = low_camera();
+  setup.sheet.sideline = GetParam().kind;
   LowView view(setup);
   for (const double distance_m : {0.9, 2.2, 5.0}) {
     SCOPED_TRACE(distance_m);
@@ -58,15 +62,17 @@ TEST_P(OnAnySheet, measures_the_hog_line) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(low_view, OnAnySheet,
-                         ::testing::Values(SheetCase{"painted_sidelines", 0.05, 0.05, 4.75, true},
-                                           SheetCase{"thin_sidelines", 0.0127, 0.0127, 4.4, true},
-                                           SheetCase{"foam_dividers", 0.2, 0.2, 4.9, true},
-                                           SheetCase{"no_sidelines", std::nullopt, std::nullopt, 4.75, true},
-                                           SheetCase{"left_sideline_only", 0.05, std::nullopt, 4.6, true},
-                                           SheetCase{"right_sideline_only", std::nullopt, 0.05, 4.6, true},
-                                           SheetCase{"sidelines_but_no_centre_line", 0.05, 0.05, 4.75, false}),
-                         [](const auto& info) { return std::string(info.param.description); });
+INSTANTIATE_TEST_SUITE_P(
+    low_view, OnAnySheet,
+    ::testing::Values(SheetCase{"painted_sidelines", SidelineKind::line, 0.05, 0.05, 4.75, true},
+                      SheetCase{"thin_sidelines", SidelineKind::line, 0.0127, 0.0127, 4.4, true},
+                      SheetCase{"foam_dividers", SidelineKind::bumper, 0.2, 0.2, 4.9, true},
+                      SheetCase{"no_sidelines", SidelineKind::none, std::nullopt, std::nullopt, 4.75, true},
+                      SheetCase{"sidelines_of_unknown_kind", SidelineKind::unknown, 0.05, 0.05, 4.75, true},
+                      SheetCase{"left_sideline_only", SidelineKind::line, 0.05, std::nullopt, 4.6, true},
+                      SheetCase{"right_sideline_only", SidelineKind::line, std::nullopt, 0.05, 4.6, true},
+                      SheetCase{"sidelines_but_no_centre_line", SidelineKind::line, 0.05, 0.05, 4.75, false}),
+    [](const auto& c) { return std::string(c.param.description); });
 
 TEST(low_view, is_not_led_astray_by_a_camera_that_leans) {
   const CameraSetup setup = low_camera();
@@ -77,6 +83,26 @@ TEST(low_view, is_not_led_astray_by_a_camera_that_leans) {
     sheet.lean_rad = lean;
     SCOPED_TRACE(lean);
     expect_seen(view.acquire(paint(setup, sheet), Stamp{}), sheet);
+  }
+}
+
+struct SceneCase {
+  const char* name;
+  double hog_distance_m;
+};
+
+// Path-traced, with blur, noise and JPEG; a logo hides a part of the first scene's hog line.
+TEST(low_view, measures_rendered_scenes) {
+  for (const SceneCase& c : {SceneCase{"low/low-13-006", 0.722}, SceneCase{"low/low-13-007", 2.737}}) {
+    SCOPED_TRACE(c.name);
+    const Scene scene = load_scene(c.name);
+    LowView view(scene.setup);
+    const SheetPosePercept seen = view.acquire(scene.image, Stamp{});
+    ASSERT_TRUE(seen.ok) << seen.reason;
+    const double distance_m = rules::tee_to_hog_m - scene.body.y_m;
+    EXPECT_NEAR(distance_m, c.hog_distance_m, 0.001);
+    EXPECT_NEAR(seen.hog_distance_m, distance_m, allowed_m(distance_m));
+    EXPECT_NEAR(seen.body.yaw_rad, scene.body.yaw_rad, 0.1 * degree);
   }
 }
 
@@ -158,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
                     s.hog_line = true;
                     s.body.y_m = rules::tee_to_hog_m + 0.3;
                   }}),
-    [](const auto& info) { return std::string(info.param.description); });
+    [](const auto& c) { return std::string(c.param.description); });
 
 TEST(low_view, refuses_what_is_no_picture_of_the_sheet) {
   const CameraSetup setup = low_camera();
