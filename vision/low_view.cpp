@@ -33,8 +33,8 @@ constexpr double height_sigma_m = 0.003;
 struct Start {
   PlanarPose body;
   std::optional<double> width_m;
-  double search_px = 0.0;
   double lean_rad = 0.0;  ///< how much more the camera looks down than its mount says
+  double lean_sigma_rad = vision::lean_sigma_rad;
 };
 
 }  // namespace
@@ -98,10 +98,13 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
 Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points,
                               std::optional<double> known_width_m) const {
   const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);
-  if (!vote) return {h.body, known_width_m ? known_width_m : h.width_m, search_px, h.lean_rad};
-  std::optional<double> width_m = known_width_m;
-  if (!width_m && vote->sideline_points >= fewest_sideline_points) width_m = vote->width_m;
-  return {body_before(h.hog, h.centre_x_m, vote->lean_rad, view), width_m, search_px, vote->lean_rad};
+  if (!vote) return {.body = h.body, .width_m = known_width_m ? known_width_m : h.width_m};
+  Start start{.body = body_before(h.hog, h.centre_x_m, vote->lean_rad, view),
+              .width_m = known_width_m,
+              .lean_rad = vote->lean_rad,
+              .lean_sigma_rad = std::min(vote->sigma_rad, lean_sigma_rad)};
+  if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
+  return start;
 }
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
@@ -141,9 +144,10 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   Mount mount = setup.mount;
   mount.pitch_rad += start.lean_rad;
   fit_start.eMc = eMb(start.body) * bMc(mount);
-  fit_start.search_px = start.search_px;
+  fit_start.search_px = search_px;
   fit_start.sheet_width_m = start.width_m;
-  fit_start.pitch_sigma_rad = lean_sigma_rad;
+  fit_start.pitch_offset_rad = start.lean_rad;
+  fit_start.pitch_sigma_rad = start.lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;
   fit_start.height_sigma_m = height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);

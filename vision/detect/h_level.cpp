@@ -17,6 +17,8 @@ constexpr double first_m = rules::min_width_m / 2.0 - 0.05;
 constexpr int bins = static_cast<int>((rules::max_width_m - rules::min_width_m) / 2.0 / bin_m) + 11;
 constexpr double parallel_cosine = 0.97;
 constexpr int fewest_points = 40;
+constexpr std::size_t most_voters = 2500;
+constexpr double peak_share = 0.9;  // of the most votes: what lies above is as good
 
 /// An edge point that may lie on a sideline or on a ring, in e's axes about the body but not yet moved there.
 struct Voter {
@@ -26,10 +28,10 @@ struct Voter {
 };
 
 struct Score {
-  int sideline = 0;
-  int ring = 0;
+  double sideline = 0.0;
+  double ring = 0.0;
   double width_m = 0.0;
-  int sum() const { return sideline + ring; }
+  double sum() const { return sideline + ring; }
 };
 
 class Poll {
@@ -37,7 +39,9 @@ class Poll {
   Poll(const std::vector<EdgePoint>& points, const GroundView& view) : view_(view) {
     const Eigen::Vector3d camera = view.gMc().translation();
     const double fh = view.setup().intrinsics.fy_px * camera.z();
-    for (const EdgePoint& p : points) {
+    stride_ = 1 + points.size() / most_voters;
+    for (std::size_t i = 0; i < points.size(); i += stride_) {
+      const EdgePoint& p = points[i];
       const double ahead = p.ground.y() - camera.y();
       if (ahead < 0.2 || ahead > range_m || std::abs(p.ground.x()) > 4.0) continue;
       voters_.push_back({p.ground, p.ground_normal, fh / (ahead * ahead)});
@@ -45,7 +49,7 @@ class Poll {
   }
 
   Score score(const PlanarPose& body, double lean_rad) {
-    std::fill(histogram_.begin(), histogram_.end(), 0);
+    std::fill(histogram_.begin(), histogram_.end(), 0.0);
     Score s;
     const double c = std::cos(body.yaw_rad);
     const double n = std::sin(body.yaw_rad);
@@ -56,20 +60,22 @@ class Poll {
       const Eigen::Vector2d lighter(c * v.lighter.x() - n * v.lighter.y(), n * v.lighter.x() + c * v.lighter.y());
       const double radius = e.norm();
       if (radius < rules::outer_ring_radius_m + 0.2 && std::abs(e.dot(lighter)) > parallel_cosine * radius) {
-        s.ring += on_ring(radius, 0.008 + 0.7 / v.px_per_m_ahead) ? 1 : 0;
+        s.ring += on_ring(radius, 0.008 + 1.2 / v.px_per_m_ahead);
       }
       if (lighter.x() * e.x() > -0.9 * std::abs(e.x())) continue;  // a sideline's inner edge is lighter inside
       const double ahead = std::max(0.2, g.y() - foot);
-      vote(std::abs(e.x()), 0.008 + 0.7 * std::abs(e.x()) / ahead / v.px_per_m_ahead);
+      vote(std::abs(e.x()), 0.008 + 1.2 * std::abs(e.x()) / ahead / v.px_per_m_ahead);
     }
     s.sideline = *std::max_element(histogram_.begin(), histogram_.end());
     s.width_m = innermost_width(s.sideline);
+    s.sideline *= static_cast<double>(stride_);
+    s.ring *= static_cast<double>(stride_);
     return s;
   }
 
  private:
   // A neighbouring sheet's sidelines lie 0.1 to 0.3 m outside ours and may be seen better.
-  double innermost_width(int most) const {
+  double innermost_width(double most) const {
     std::size_t i = 0;
     while (i + 1 < histogram_.size() && histogram_[i] < 0.6 * most) ++i;
     std::size_t peak = i;
@@ -79,22 +85,27 @@ class Poll {
     return 2.0 * (first_m + (static_cast<double>(peak) + 0.5) * bin_m);
   }
 
-  static bool on_ring(double radius, double tolerance) {
+  static double on_ring(double radius, double tolerance) {
+    double best = 0.0;
     for (const double r : {rules::outer_ring_radius_m, rules::middle_ring_radius_m, rules::inner_ring_radius_m}) {
-      if (std::abs(radius - r) < tolerance) return true;
+      best = std::max(best, 1.0 - std::abs(radius - r) / tolerance);
     }
-    return false;
+    return best;
   }
 
   void vote(double x, double tolerance) {
     const int begin = std::max(0, static_cast<int>((x - tolerance - first_m) / bin_m));
     const int end = std::min(bins - 1, static_cast<int>((x + tolerance - first_m) / bin_m));
-    for (int i = begin; i <= end; ++i) ++histogram_[static_cast<std::size_t>(i)];
+    for (int i = begin; i <= end; ++i) {
+      const double off = std::abs(first_m + (i + 0.5) * bin_m - x);
+      histogram_[static_cast<std::size_t>(i)] += std::max(0.0, 1.0 - off / tolerance);
+    }
   }
 
   const GroundView& view_;
   std::vector<Voter> voters_;
-  std::array<int, bins> histogram_{};
+  std::size_t stride_ = 1;  ///< of the points, one votes for so many
+  std::array<double, bins> histogram_{};
 };
 
 }  // namespace
@@ -130,19 +141,21 @@ std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, cons
     const double lean = (i - lean_steps) * lean_step_rad;
     scores[static_cast<std::size_t>(i)] = poll.score(body_before(hog, centre_x_m, lean, view), lean);
   }
-  std::size_t best = 0;
-  double most = 0.0;
+  std::array<double, 2 * lean_steps + 1> votes{};
   for (std::size_t i = 1; i + 1 < scores.size(); ++i) {
     const double lean = (static_cast<double>(i) - lean_steps) * lean_step_rad;
     const double prior = std::exp(-0.125 * lean * lean / (lean_sigma_rad * lean_sigma_rad));
-    const double votes = prior * (scores[i - 1].sum() + 2.0 * scores[i].sum() + scores[i + 1].sum());
-    if (votes <= most) continue;
-    most = votes;
-    best = i;
+    votes[i] = prior * (scores[i - 1].sum() + 2.0 * scores[i].sum() + scores[i + 1].sum());
   }
+  const auto peak = std::max_element(votes.begin(), votes.end());
+  const auto best = static_cast<std::size_t>(peak - votes.begin());
   if (scores[best].sum() < fewest_points) return std::nullopt;
-  return LeanVote{(static_cast<double>(best) - lean_steps) * lean_step_rad, scores[best].sideline, scores[best].width_m,
-                  scores[best].ring};
+  const auto high = std::count_if(votes.begin(), votes.end(), [&](double v) { return v > peak_share * *peak; });
+  return LeanVote{.lean_rad = (static_cast<double>(best) - lean_steps) * lean_step_rad,
+                  .sigma_rad = lean_step_rad * (0.5 + 0.5 * static_cast<double>(high)),
+                  .sideline_points = static_cast<int>(scores[best].sideline),
+                  .width_m = scores[best].width_m,
+                  .ring_points = static_cast<int>(scores[best].ring)};
 }
 
 }  // namespace hogline::vision

@@ -22,6 +22,7 @@ PlanarPose body_before(const CrossCandidate& hog, double centre_x_m, double lean
 
 struct LeanVote {
   double lean_rad = 0.0;
+  double sigma_rad = 0.0;   ///< how far the lean may be off: half the breadth of the votes' peak
   int sideline_points = 0;  ///< on one pair of lines as far from the centre line as sidelines may be
   double width_m = 0.0;     ///< between these lines: the innermost of those nearly as well seen as the best
   int ring_points = 0;      ///< on the outer, middle or inner ring

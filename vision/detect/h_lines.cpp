@@ -22,12 +22,20 @@ constexpr double least_evidence = 10.0;  // tens of thousands of lines are tried
 struct FootPoint {
   double s;
   double q;
+  double log_bin;  ///< of a line straight across through it
 };
 
+/// q = at_zero + slope * s.
 struct Line {
-  double yaw_rad;
-  double distance_m;  // from the camera's foot
-  double q_at(double s) const { return (std::cos(yaw_rad) + s * std::sin(yaw_rad)) / distance_m; }
+  double at_zero;
+  double slope;
+
+  static Line of(double yaw_rad, double distance_m) {  // from the camera's foot
+    return {std::cos(yaw_rad) / distance_m, std::sin(yaw_rad) / distance_m};
+  }
+  double q_at(double s) const { return at_zero + slope * s; }
+  double yaw_rad() const { return std::atan2(slope, at_zero); }
+  double distance_m() const { return 1.0 / std::hypot(slope, at_zero); }
 };
 
 double median(std::vector<double>& values) {
@@ -48,22 +56,23 @@ class Search {
     votes_.assign(static_cast<std::size_t>(yaws_) * static_cast<std::size_t>(logs_), 0.0F);
     for (const HogRidge& r : ridges_) {
       const Eigen::Vector2d g = r.ice - foot_;
-      points_.push_back({g.x() / g.y(), 1.0 / g.y()});
+      points_.push_back({g.x() / g.y(), 1.0 / g.y(), std::log(g.y() / nearest_m) / log_step});
     }
     taken_.assign(points_.size(), false);
   }
 
   void vote() {
     for (int y = 0; y < yaws_; ++y) {
-      const double yaw = yaw_of(y);
+      const auto cosine = static_cast<float>(std::cos(yaw_of(y)));
+      const auto sine = static_cast<float>(std::sin(yaw_of(y)));
       for (std::size_t i = 0; i < ridges_.size(); ++i) {
-        const double distance = (std::cos(yaw) + points_[i].s * std::sin(yaw)) / points_[i].q;
-        if (!(distance > nearest_m)) continue;
-        const double bin = std::log(distance / nearest_m) / log_step;
+        const float turned = cosine + static_cast<float>(points_[i].s) * sine;
+        if (!(turned > 0.1F)) continue;
+        const float bin = static_cast<float>(points_[i].log_bin) + std::log(turned) / static_cast<float>(log_step);
         const int b = static_cast<int>(bin);
-        if (b + 1 >= logs_) continue;
+        if (bin < 0.0F || b + 1 >= logs_) continue;
         const float weight = static_cast<float>(std::min(ridges_[i].strength, 0.4));
-        const float share = static_cast<float>(bin - b);
+        const float share = bin - static_cast<float>(b);
         at(y, b) += (1.0F - share) * weight;
         at(y, b + 1) += share * weight;
       }
@@ -77,7 +86,7 @@ class Search {
       for (int b = 1; b + 1 < logs_; ++b) {
         const float v = votes_[index(y, b)];
         if (v < 1.0F || !is_peak(y, b, v)) continue;
-        found.push_back({v, {yaw_of(y), nearest_m * std::exp(b * log_step)}});
+        found.push_back({v, Line::of(yaw_of(y), nearest_m * std::exp(b * log_step))});
       }
     }
     const std::size_t count = std::min(most, found.size());
@@ -91,7 +100,7 @@ class Search {
   // Tukey-weighted least squares of q over s, closing in on the line.
   bool refine(Line& line) const {
     for (const double wide : {4.0, 2.0, 1.0, 1.0}) {
-      const double slack = wide > 1.0 ? 0.01 * wide / line.distance_m : 0.0;
+      const double slack = wide > 1.0 ? 0.01 * wide * line.at_zero : 0.0;
       double w0 = 0.0, ws = 0.0, wss = 0.0, wq = 0.0, wsq = 0.0;
       for (std::size_t i = 0; i < points_.size(); ++i) {
         const double limit = wide * tolerance(points_[i]) + slack;
@@ -106,19 +115,17 @@ class Search {
       }
       const double det = w0 * wss - ws * ws;
       if (!(det > 1e-6 * w0 * w0)) return false;
-      const double slope = (w0 * wsq - ws * wq) / det;
-      const double q0 = (wq - slope * ws) / w0;
-      if (!(q0 > 0.0)) return false;
-      line.yaw_rad = std::atan2(slope, q0);
-      line.distance_m = 1.0 / std::hypot(slope, q0);
+      line.slope = (w0 * wsq - ws * wq) / det;
+      line.at_zero = (wq - line.slope * ws) / w0;
+      if (!(line.at_zero > 0.0)) return false;
     }
-    return line.yaw_rad > range_.min_yaw_rad - 0.03 && line.yaw_rad < range_.max_yaw_rad + 0.03;
+    return line.yaw_rad() > range_.min_yaw_rad - 0.03 && line.yaw_rad() < range_.max_yaw_rad + 0.03;
   }
 
   CrossCandidate describe(const Line& line) const {
     CrossCandidate c;
-    c.yaw_rad = line.yaw_rad;
-    c.distance_m = line.distance_m + foot_.dot(c.normal());
+    c.yaw_rad = line.yaw_rad();
+    c.distance_m = line.distance_m() + foot_.dot(c.normal());
     std::vector<double> widths;
     std::vector<double> contrasts;
     std::vector<double> xs;
@@ -247,6 +254,10 @@ Eigen::Vector2d CrossCandidate::at(double x_m) const {
 std::vector<CrossCandidate> find_cross_candidates(const std::vector<HogRidge>& ridges, const HogRidgeFinder& finder,
                                                   const GroundView& view, const CrossRange& range, std::size_t most,
                                                   int* too_thin) {
+  if (too_thin != nullptr) *too_thin = 0;
+  const bool anything =
+      range.max_yaw_rad > range.min_yaw_rad && range.max_distance_m > std::max(range.min_distance_m, 0.0);
+  if (!anything) return {};
   Search search(ridges, finder, view, range);
   search.vote();
   std::vector<CrossCandidate> found;
