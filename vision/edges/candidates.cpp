@@ -73,7 +73,7 @@ Candidates maxima(const Profile& profile, const std::array<float, Profile::max_s
     const float here = strength[static_cast<std::size_t>(i)];
     const float before = strength[static_cast<std::size_t>(i - 1)];
     const float after = strength[static_cast<std::size_t>(i + 1)];
-    if (!(here > before && here >= after && here > threshold)) continue;
+    if (!(here > before && here >= after && static_cast<double>(here) > threshold)) continue;
     const double bend = static_cast<double>(before - 2.0F * here + after);
     const double peak = bend < 0.0 ? 0.5 * static_cast<double>(before - after) / bend : 0.0;
     insert(found, {profile.position(i) + peak * profile.step_px + shift_px, static_cast<double>(here)});
