@@ -82,6 +82,7 @@ struct SheetFit::Impl {
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
   double borne_out() const;
+  bool sidelines_borne_out() const;
   bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
                    const std::optional<Consensus>& consensus);
@@ -305,6 +306,18 @@ void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitSta
   }
 }
 
+// No sideline is planned, or most of its sites fit.
+bool SheetFit::Impl::sidelines_borne_out() const {
+  double planned = 0.0;
+  double agreed = 0.0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (sites[i].feature < left_sideline_feature) continue;
+    planned += 1.0;
+    agreed += step.weight[i];
+  }
+  return agreed >= 0.6 * planned;
+}
+
 void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
                             int half_breadth) {
   plan(start, spacing_px);
@@ -411,9 +424,12 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
 
   if (!arrive(light, start)) return result;
 
-  find_sidelines(light, start);
-  refine(light, start, 18.0, 2.5, 1);
-  if (!move_by(step.change)) return refuse("the fit ran away");
+  for (int round = 0; round < 3; ++round) {
+    find_sidelines(light, start);
+    refine(light, start, 18.0, 2.5, 1);
+    if (!move_by(step.change)) return refuse("the fit ran away");
+    if (sidelines_borne_out()) break;
+  }
 
   refine(light, start, 12.0, 1.5, 2);
   if (!move_by(step.change)) return refuse("the fit ran away");
