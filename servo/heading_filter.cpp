@@ -26,7 +26,9 @@ void HeadingModel::propagate(State& state, double dt_s, double rate_radps, bool 
   if (!at_rest) {
     const double walk = config_.noise_rad_per_sqrt_s * config_.noise_rad_per_sqrt_s;
     state.yaw_rad = wrapped(state.yaw_rad + (rate_radps - state.bias_radps) * dt_s);
-    state.yaw_yaw += (-2.0 * state.yaw_bias + state.bias_bias * dt_s) * dt_s + walk * dt_s;
+    const double scale = config_.scale_noise_rad_per_sqrt_rad * config_.scale_noise_rad_per_sqrt_rad;
+    const double turned_rad = std::abs(rate_radps - state.bias_radps) * dt_s;
+    state.yaw_yaw += (-2.0 * state.yaw_bias + state.bias_bias * dt_s) * dt_s + walk * dt_s + scale * turned_rad;
     state.yaw_bias -= state.bias_bias * dt_s;
   }
   state.bias_bias += drift * dt_s;
@@ -54,7 +56,9 @@ void HeadingModel::drive(State& state, double dt_s, const Input& input) const {
 
 bool HeadingModel::correct(State& state, const Measurement& measurement) const {
   const double innovation = wrapped(measurement.yaw_rad - state.yaw_rad);
-  const double look_variance = measurement.sigma_rad * measurement.sigma_rad;
+  // While the body turns, a picture that is stamped a little early or late is a picture of another heading.
+  const double misplaced_rad = (state.rate_radps - state.bias_radps) * config_.timing_sigma_s;
+  const double look_variance = measurement.sigma_rad * measurement.sigma_rad + misplaced_rad * misplaced_rad;
   if (innovation * innovation > gate_sigma * gate_sigma * (state.yaw_yaw + look_variance)) return false;
   const double variance = state.yaw_yaw + look_variance / measurement.counts_as;
   const double yaw_gain = state.yaw_yaw / variance;

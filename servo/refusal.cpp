@@ -78,6 +78,8 @@ std::optional<std::string> negative(const ThrowerConfig& c) {
       Named{"measure.rest", seconds(c.measure.rest)},
       Named{"alignment.stopping_lag_s", c.alignment.stopping_lag_s},
       Named{"gyro.bias_drift_radps_per_sqrt_s", c.gyro.bias_drift_radps_per_sqrt_s},
+      Named{"gyro.scale_noise_rad_per_sqrt_rad", c.gyro.scale_noise_rad_per_sqrt_rad},
+      Named{"gyro.timing_sigma_s", c.gyro.timing_sigma_s},
       Named{"odometry.scale_drift_per_sqrt_m", c.odometry.scale_drift_per_sqrt_m},
       Named{"run.max_lateral_heading_rad", c.run.max_lateral_heading_rad},
       Named{"safety.reaction_s", c.safety.reaction_s},

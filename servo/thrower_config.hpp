@@ -63,6 +63,8 @@ struct GyroConfig {
   double noise_rad_per_sqrt_s = 0.0;  ///< angle random walk
   double bias_sigma_radps = 0.0;      ///< what the bias may be before it is learnt
   double bias_drift_radps_per_sqrt_s = 0.0;
+  double scale_noise_rad_per_sqrt_rad = 0.0;  ///< error of the gyro's scale, as a random walk over the angle turned
+  double timing_sigma_s = 0.0;                ///< how far a picture's and the gyro's stamps can be apart
 };
 
 struct OdometryConfig {

@@ -134,11 +134,10 @@ std::optional<SheetPosePercept> LowSequence::dead_reckoned(Stamp stamp) const {
 
 bool LowSequence::hog_line_below(const PlanarPose& body) const {
   const SheetCamera camera(Lens(setup_.intrinsics), eMb(body) * bMc(setup_.mount), setup_.ice);
-  const double half_px = 0.1 * setup_.intrinsics.width_px;
-  const double middle_m = camera.eMc().translation().x();
-  const auto near_edge = camera.project_paint({middle_m, rules::tee_to_hog_m});
-  if (!near_edge) return true;
-  return near_edge->y() > setup_.intrinsics.height_px - 1.0 - half_px * 0.25;
+  const auto near_edge = camera.project_paint({camera.eMc().translation().x(), rules::tee_to_hog_m});
+  // Its house-side edge and some ice before it must be in view to see it.
+  const double margin_px = 0.025 * setup_.intrinsics.height_px;
+  return !near_edge || near_edge->y() > setup_.intrinsics.height_px - margin_px;
 }
 
 }  // namespace hogline::vision

@@ -5,6 +5,7 @@
 
 #include "vision/detect/edge_points.hpp"
 #include "vision/detect/h_choice.hpp"
+#include "vision/detect/h_level.hpp"
 #include "vision/detect/h_lines.hpp"
 #include "vision/detect/h_ridges.hpp"
 #include "vision/detect/line_candidates.hpp"
@@ -21,7 +22,10 @@ constexpr double max_yaw_rad = 0.262;
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
-constexpr double pitch_sigma_rad = 0.0045;  // the running body rocks by tenths of a degree
+constexpr double search_px = 10.0;
+constexpr int fewest_sideline_points = 40;
+constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
+constexpr double least_error_m = 0.0005;
 constexpr double roll_sigma_rad = 0.0017;
 constexpr double height_sigma_m = 0.003;
 
@@ -29,7 +33,8 @@ constexpr double height_sigma_m = 0.003;
 struct Start {
   PlanarPose body;
   std::optional<double> width_m;
-  double search_px;
+  double lean_rad = 0.0;  ///< how much more the camera looks down than its mount says
+  double lean_sigma_rad = vision::lean_sigma_rad;
 };
 
 }  // namespace
@@ -39,11 +44,13 @@ struct LowView::Impl {
       : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
+  Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
   SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
   SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
+  double lean_error_m(const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
 
   CameraSetup setup;
@@ -76,15 +83,28 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
 
-  const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction));
+  const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen = impl_->refine(image, {shapes[i].body, shapes[i].width_m, 12.0}, stamp, sketch);
+    const SheetPosePercept seen =
+        impl_->refine(image, impl_->levelled(shapes[i], points, prediction.sheet_width_m), stamp, sketch);
     if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
     if (seen.ok) return seen;
     if (i == 0) nothing.reason = seen.reason;
   }
   return nothing;
+}
+
+Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points,
+                              std::optional<double> known_width_m) const {
+  const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);
+  if (!vote) return {.body = h.body, .width_m = known_width_m ? known_width_m : h.width_m};
+  Start start{.body = body_before(h.hog, h.centre_x_m, vote->lean_rad, view),
+              .width_m = known_width_m,
+              .lean_rad = vote->lean_rad,
+              .lean_sigma_rad = std::min(vote->sigma_rad, lean_sigma_rad)};
+  if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
+  return start;
 }
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
@@ -102,7 +122,7 @@ CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {
   if (!prediction.body) return range;
   const double distance_m = rules::tee_to_hog_m - prediction.body->y_m;
   const double slack_m =
-      0.1 + 4.0 * prediction.body_sigma.y_m + 3.0 * pitch_sigma_rad * distance_m * distance_m / setup.mount.z_m;
+      0.1 + 4.0 * prediction.body_sigma.y_m + 3.0 * lean_sigma_rad * distance_m * distance_m / setup.mount.z_m;
   const double slack_rad = 0.02 + 4.0 * prediction.body_sigma.yaw_rad;
   range.min_distance_m = std::max(range.min_distance_m, distance_m - slack_m);
   range.max_distance_m = std::min(range.max_distance_m, distance_m + slack_m);
@@ -113,20 +133,21 @@ CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {
 
 HKnowledge LowView::Impl::knowledge(const LowViewPrediction& prediction) const {
   HKnowledge known;
-  known.width_m = prediction.sheet_width_m.value_or(setup.sheet.width_m);
-  known.width_sigma_m = prediction.sheet_width_m ? 0.03 : 0.3;
+  known.width_m = prediction.sheet_width_m;
   known.body = prediction.body;
   known.body_sigma = prediction.body_sigma;
-  known.camera_height_m = setup.mount.z_m;
   return known;
 }
 
 SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch) {
   SheetFitStart fit_start;
-  fit_start.eMc = eMb(start.body) * bMc(setup.mount);
-  fit_start.search_px = start.search_px;
+  Mount mount = setup.mount;
+  mount.pitch_rad += start.lean_rad;
+  fit_start.eMc = eMb(start.body) * bMc(mount);
+  fit_start.search_px = search_px;
   fit_start.sheet_width_m = start.width_m;
-  fit_start.pitch_sigma_rad = pitch_sigma_rad;
+  fit_start.pitch_offset_rad = start.lean_rad;
+  fit_start.pitch_sigma_rad = start.lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;
   fit_start.height_sigma_m = height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
@@ -141,11 +162,11 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
   const Eigen::Vector3d up = bMc(setup.mount).linear() * result.eMc.linear().row(2).transpose();
-  if (std::abs(up.x()) > 6.0 * pitch_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
+  if (std::abs(up.x()) > 6.0 * lean_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
     return "the fitted tilt is too far from the mount's";
   }
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
-  const double slack_m = 0.05 + 4.0 * pitch_sigma_rad * far_m * far_m / setup.mount.z_m;
+  const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
   if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
       std::abs(result.body.yaw_rad - start.body.yaw_rad) > 0.05) {
     return "the fit went away from the H that was seen";
@@ -168,7 +189,8 @@ SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stam
   p.body = result.body;
   p.sigma = result.sigma;
   p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
-  p.hog_distance_sigma_m = result.hog_distance_sigma_m;
+  p.hog_distance_sigma_m = std::hypot(result.hog_distance_sigma_m, lean_error_m(result));
+  p.sigma.y_m = p.hog_distance_sigma_m;
   p.sheet_width_m = result.sheet_width_m;
   p.eMc = row_major(result.eMc);
   p.residual_px = result.residual_px;
@@ -178,6 +200,16 @@ SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stam
     if (f.sites_used > 0) p.features.push_back(f.name);
   }
   return p;
+}
+
+// Without a ring the lean comes from sidelines, which are not laid as parallel as the fit takes them to be.
+double LowView::Impl::lean_error_m(const SheetFitResult& result) const {
+  const bool ring = std::any_of(result.features.begin(), result.features.end(),
+                                [](const FittedFeature& f) { return f.name.ends_with("_ring") && f.sites_used >= 24; });
+  if (ring) return least_error_m;
+  const double z = setup.mount.z_m;
+  const double ahead = rules::tee_to_hog_m - result.eMc.translation().y();
+  return std::hypot(least_error_m, sideline_lean_rad * (ahead * ahead + z * z) / z);
 }
 
 std::string LowView::Impl::why_no_hog_line(int too_thin) const {

@@ -88,7 +88,9 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   const Section gyro = t.section("gyro");
   c.gyro = {.noise_rad_per_sqrt_s = gyro.radians("noise_deg_per_sqrt_h") / std::sqrt(hour_s),
             .bias_sigma_radps = gyro.radians("bias_sigma_deg_per_h") / hour_s,
-            .bias_drift_radps_per_sqrt_s = gyro.radians("bias_drift_deg_per_h_per_sqrt_s") / hour_s};
+            .bias_drift_radps_per_sqrt_s = gyro.radians("bias_drift_deg_per_h_per_sqrt_s") / hour_s,
+            .scale_noise_rad_per_sqrt_rad = gyro.number("scale_noise_rad_per_sqrt_rad"),
+            .timing_sigma_s = gyro.number("timing_sigma_s")};
   const Section odometry = t.section("odometry");
   c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
                 .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),

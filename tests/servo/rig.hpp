@@ -41,7 +41,11 @@ inline ThrowerConfig thrower_config() {
                  .settle_time = 300ms,
                  .breakaway_yaw_rate_radps = 0.6 * degree,
                  .stopping_lag_s = 0.04};
-  c.gyro = {.noise_rad_per_sqrt_s = 3e-5, .bias_sigma_radps = 0.01, .bias_drift_radps_per_sqrt_s = 1e-6};
+  c.gyro = {.noise_rad_per_sqrt_s = 3e-5,
+            .bias_sigma_radps = 0.01,
+            .bias_drift_radps_per_sqrt_s = 1e-6,
+            .scale_noise_rad_per_sqrt_rad = 1e-3,
+            .timing_sigma_s = 2e-3};
   c.odometry = {.scale_sigma = 0.02, .scale_drift_per_sqrt_m = 0.0005, .noise_m_per_sqrt_m = 0.001};
   c.run = {.hold_distance_m = 0.8,
            .heading_gain_per_s = 8.0,

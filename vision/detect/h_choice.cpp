@@ -3,123 +3,167 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/detect/h_level.hpp"
+
 namespace hogline::vision {
 namespace {
 
-constexpr double tilt_sigma_rad = 0.004;    // the body rocks by tenths of a degree against the mount
+constexpr double slope_sigma_rad = 0.004;   // of a line candidate on the ice
 constexpr double missing_sideline_m = 0.5;  // costs as much as so wide a gap
 constexpr double missing_centre_m = 0.5;
-constexpr double hidden_hog_m = 1.5;  // times the share of it that was not seen
-constexpr double largest_x_m = 1.3;   // of a running thrower from the centre line
-constexpr double largest_term_m = 1.0;
+constexpr double hidden_hog_m = 1.5;      // times the share of it that was not seen
+constexpr double full_contrast = 0.5;     // paint that takes away half the light is surely paint
+constexpr double largest_gap_m = 0.4;     // a logo or a person may hide the rest
+constexpr double largest_x_m = 1.3;       // of a running thrower from the centre line
+constexpr double inner_preference = 0.1;  // of two possible sidelines the inner: the outer one is the neighbour's
+
+/// A straight line on the ice by two of its points.
+struct GroundLine {
+  Eigen::Vector2d a;
+  Eigen::Vector2d b;
+
+  GroundLine leaned_by(double lean_rad, const GroundView& view) const {
+    return {leaned(a, lean_rad, view), leaned(b, lean_rad, view)};
+  }
+  double down_slope() const { return std::atan2(-(b - a).x(), (b - a).y()); }
+};
+
+GroundLine ground_line(const ClassifiedLine& line, double begin_m, double end_m) {
+  const Eigen::Vector2d normal(std::cos(line.slope_rad), std::sin(line.slope_rad));
+  const Eigen::Vector2d along(-normal.y(), normal.x());
+  return {line.intercept_m * normal + begin_m * along, line.intercept_m * normal + end_m * along};
+}
 
 /// A down-ice line where it meets a hog line: metres to the right of b's origin along the hog line.
 struct Intercept {
-  const ClassifiedLine* line;
-  double x_m;
-  double gap_m;
+  const ClassifiedLine* line = nullptr;
+  double x_m = 0.0;
+  double gap_m = 0.0;
+  double slope_by_lean = 0.0;  ///< how its slope turns with the camera's lean
 };
 
-// The tilt turns a line seen from the side: far lines to the left and right lean towards each other or apart.
-double slope_tolerance(const HKnowledge& known, double intercept_m) {
-  return 0.012 + 3.0 * tilt_sigma_rad / known.camera_height_m * std::abs(intercept_m);
-}
-
-// Where the line crosses the hog line, along the hog line. Both are known in b's ground coordinates.
-double intercept_on(const CrossCandidate& hog, const ClassifiedLine& line) {
-  // Directions: hog line (cos yaw, -sin yaw); down-ice line at slope a: (-sin a, cos a), normal (cos a, sin a).
-  const Eigen::Vector2d normal(std::cos(line.slope_rad), std::sin(line.slope_rad));
-  const Eigen::Vector2d along(std::cos(hog.yaw_rad), -std::sin(hog.yaw_rad));
-  return (line.intercept_m - hog.distance_m * normal.dot(hog.normal())) / normal.dot(along);
-}
-
-double end_gap(const CrossCandidate& hog, double x_m) {
-  const double lo = hog.begin_x_m / std::cos(hog.yaw_rad);
-  const double hi = hog.end_x_m / std::cos(hog.yaw_rad);
-  return std::max({0.0, x_m - hi, lo - x_m});
-}
-
-std::vector<Intercept> intercepts(const CrossCandidate& hog, const std::vector<ClassifiedLine>& down_ice,
-                                  const HKnowledge& known) {
-  std::vector<Intercept> found;
-  for (const ClassifiedLine& line : down_ice) {
-    if (std::abs(line.slope_rad + hog.yaw_rad) > slope_tolerance(known, line.intercept_m)) continue;
-    const double x = intercept_on(hog, line);
-    found.push_back({&line, x, std::min(end_gap(hog, x), largest_term_m)});
-  }
-  return found;
-}
-
-/// One combination: any of the three may be missing.
-struct Trio {
-  const Intercept* left;
-  const Intercept* right;
-  const Intercept* centre;
-};
-
+/// What may go with one hog line, and what a combination costs.
 class Judge {
  public:
-  Judge(const CrossCandidate& hog, const HKnowledge& known) : hog_(hog), known_(known) {
-    // A tilt error scales the ice far ahead.
-    scale_sigma_ = tilt_sigma_rad * hog.distance_m / known.camera_height_m;
+  Judge(const CrossCandidate& hog, const HKnowledge& known, const GroundView& view)
+      : hog_(hog), known_(known), view_(view), height_m_(view.gMc().translation().z()) {
+    // A lean scales the ice far ahead.
+    scale_sigma_ = lean_sigma_rad * hog.distance_m / height_m_;
   }
 
-  std::optional<HShape> weigh(const Trio& trio) const {
+  std::vector<Intercept> intercepts(const std::vector<ClassifiedLine>& down_ice) const {
+    std::vector<Intercept> found;
+    for (const ClassifiedLine& line : down_ice) {
+      // Lines to the left and right lean towards each other or apart with the camera.
+      const double tolerance = 0.012 + 3.0 * lean_sigma_rad / height_m_ * std::abs(line.intercept_m);
+      if (std::abs(line.slope_rad + hog_.yaw_rad) > tolerance) continue;
+      constexpr double step_rad = 1e-4;
+      const GroundLine g = ground_line(line, 1.0, 4.0);
+      const double turned = g.leaned_by(step_rad, view_).down_slope() - g.down_slope();
+      const double x = intercept(line);
+      found.push_back({&line, x, std::min(end_gap(x), largest_gap_m), turned / step_rad});
+    }
+    return found;
+  }
+
+  std::optional<HShape> weigh(const Intercept* left, const Intercept* right, const Intercept* centre) const {
+    if (left == nullptr && right == nullptr && centre == nullptr) return std::nullopt;
     HShape h;
     h.hog = hog_;
-    h.error_m = hidden_hog_m * (1.0 - std::min(1.0, hog_.visible));
-    double x = 0.0;
-    if (trio.left != nullptr && trio.right != nullptr) {
-      const double spacing = trio.right->x_m - trio.left->x_m;
-      const double sigma = std::hypot(known_.width_sigma_m, scale_sigma_ * known_.width_m);
-      if (spacing < rules::min_width_m * (1.0 - 3.0 * scale_sigma_) - 0.05 ||
-          spacing > rules::max_width_m * (1.0 + 3.0 * scale_sigma_) + 0.05)
-        return std::nullopt;
-      h.error_m += std::min(largest_term_m, 0.3 / sigma * std::abs(spacing - known_.width_m));
-      h.width_m = std::clamp(spacing, rules::min_width_m, rules::max_width_m);
-      x = -0.5 * (trio.left->x_m + trio.right->x_m);
-    } else if (trio.left != nullptr || trio.right != nullptr) {
-      x = trio.left != nullptr ? -(trio.left->x_m + 0.5 * known_.width_m) : -(trio.right->x_m - 0.5 * known_.width_m);
-    }
-    for (const Intercept* side : {trio.left, trio.right})
-      h.error_m += side != nullptr ? side->gap_m : missing_sideline_m;
-    if (trio.centre != nullptr) {
-      const double to_sides = std::abs(-trio.centre->x_m - x);
-      const bool sides = trio.left != nullptr || trio.right != nullptr;
-      const double tolerance = (h.width_m ? 0.06 : 0.4) + 0.5 * scale_sigma_;
-      if (sides && to_sides > tolerance) return std::nullopt;
-      x = -trio.centre->x_m;
-      if (sides && !h.width_m) {
-        const double half =
-            trio.left != nullptr ? trio.centre->x_m - trio.left->x_m : trio.right->x_m - trio.centre->x_m;
-        h.width_m = std::clamp(2.0 * half, rules::min_width_m, rules::max_width_m);
-      }
-      // A centre line is seen from near to far; more of it is better.
-      h.error_m += missing_centre_m / (1.0 + trio.centre->line->line.votes / 100.0);
-    } else {
-      h.error_m += missing_centre_m;
-      if (trio.left == nullptr && trio.right == nullptr) return std::nullopt;
-    }
-    if (std::abs(x) > largest_x_m) return std::nullopt;
-    set_body(h, x);
-    if (!expected(h.body)) return std::nullopt;
-    if (trio.left != nullptr) h.left = *trio.left->line;
-    if (trio.right != nullptr) h.right = *trio.right->line;
-    if (trio.centre != nullptr) h.centre = *trio.centre->line;
+    h.error_m = hidden_hog_m * (1.0 - std::min(1.0, hog_.visible * std::min(1.0, hog_.contrast / full_contrast)));
+    for (const Intercept* side : {left, right}) h.error_m += side != nullptr ? side->gap_m : missing_sideline_m;
+    h.error_m += centre != nullptr ? missing_centre_m / (1.0 + centre->line->line.votes / 40.0) : missing_centre_m;
+    if (!place_sides(left, right, centre, h)) return std::nullopt;
+    if (left != nullptr) h.left = *left->line;
+    if (right != nullptr) h.right = *right->line;
+    if (centre != nullptr) h.centre = *centre->line;
+    level(left, right, centre, h);
+    if (std::abs(h.body.x_m) > largest_x_m || !expected(h.body)) return std::nullopt;
     return h;
   }
 
  private:
-  void set_body(HShape& h, double x) const {
-    h.body.yaw_rad = hog_.yaw_rad;
-    h.body.x_m = x;
-    h.body.y_m = rules::tee_to_hog_m + 0.5 * rules::hog_line_width_m - hog_.distance_m;
+  // Where the line crosses the hog line, along the hog line.
+  double intercept(const ClassifiedLine& line) const {
+    const Eigen::Vector2d normal(std::cos(line.slope_rad), std::sin(line.slope_rad));
+    const Eigen::Vector2d along(std::cos(hog_.yaw_rad), -std::sin(hog_.yaw_rad));
+    return (line.intercept_m - hog_.distance_m * normal.dot(hog_.normal())) / normal.dot(along);
+  }
+
+  // From the hog line's end to the intercept, as far as the picture shows it.
+  double end_gap(double x_m) const {
+    constexpr double step_m = 0.05;
+    const double c = std::cos(hog_.yaw_rad);
+    const double end = x_m > 0.0 ? std::max(hog_.end_x_m / c, 0.0) : std::min(hog_.begin_x_m / c, 0.0);
+    if (std::abs(end) >= std::abs(x_m)) return 0.0;
+    const double sign = x_m > 0.0 ? 1.0 : -1.0;
+    double gap = 0.0;
+    for (double x = std::abs(end) + 0.5 * step_m; x < std::abs(x_m); x += step_m) {
+      const auto pixel = view_.pixel_of_ground(hog_.at(sign * x * c));
+      if (pixel && view_.lens().in_picture(*pixel)) gap += step_m;
+    }
+    return gap;
+  }
+
+  // The third term, and x: from the centre line where there is one, else from the sidelines.
+  bool place_sides(const Intercept* left, const Intercept* right, const Intercept* centre, HShape& h) const {
+    const double nominal_m = known_.width_m.value_or(rules::nominal_width_m);
+    if (left != nullptr && right != nullptr) {
+      const double spacing = right->x_m - left->x_m;
+      const double slack = 0.05 + 3.0 * scale_sigma_ * spacing;
+      const double outside = std::max({0.0, rules::min_width_m - spacing, spacing - rules::max_width_m});
+      if (outside > slack) return false;
+      const double sigma = std::hypot(known_.width_sigma_m, scale_sigma_ * spacing);
+      h.error_m += known_.width_m ? 0.3 * std::min(3.0, std::abs(spacing - *known_.width_m) / sigma)
+                                  : outside + inner_preference * (spacing - rules::min_width_m);
+      h.width_m = std::clamp(spacing, rules::min_width_m, rules::max_width_m);
+      h.body.x_m = -0.5 * (left->x_m + right->x_m);
+    } else if (left != nullptr) {
+      h.body.x_m = -(left->x_m + 0.5 * nominal_m);
+    } else if (right != nullptr) {
+      h.body.x_m = -(right->x_m - 0.5 * nominal_m);
+    }
+    if (centre == nullptr) return true;
+
+    const double off = std::abs(centre->x_m + h.body.x_m);
+    const bool any_side = left != nullptr || right != nullptr;
+    h.body.x_m = -centre->x_m;
+    if (!any_side) return true;
+    if (off > (h.width_m ? 0.06 : 0.4) + 0.5 * scale_sigma_) return false;
+    if (h.width_m) {
+      h.error_m += off;
+    } else {
+      const double half = left != nullptr ? centre->x_m - left->x_m : right->x_m - centre->x_m;
+      h.width_m = std::clamp(2.0 * half, rules::min_width_m, rules::max_width_m);
+    }
+    return true;
+  }
+
+  // Parallel lines seen from a camera that leans are not parallel on the ice its mount predicts: yaw and lean by least
+  // squares over the slopes, then the body from where the hog line lies with that lean.
+  void level(const Intercept* left, const Intercept* right, const Intercept* centre, HShape& h) const {
+    const double w = 1.0 / (slope_sigma_rad * slope_sigma_rad);
+    const double hog_sigma = slope_sigma_rad * (1.0 + hog_.distance_m / 4.0);
+    const double hog_w = 1.0 / (hog_sigma * hog_sigma);
+    double a = hog_w, b = 0.0, c = 1.0 / (lean_sigma_rad * lean_sigma_rad), p = hog_w * hog_.yaw_rad, q = 0.0;
+    for (const Intercept* i : {left, right, centre}) {
+      if (i == nullptr) continue;
+      // slope seen + slope_by_lean * lean = -yaw
+      a += w;
+      b += w * i->slope_by_lean;
+      c += w * i->slope_by_lean * i->slope_by_lean;
+      p -= w * i->line->slope_rad;
+      q -= w * i->slope_by_lean * i->line->slope_rad;
+    }
+    const double det = a * c - b * b;
+    h.lean_rad = (a * q - b * p) / det;
+    h.centre_x_m = -h.body.x_m;
+    h.body = body_before(hog_, h.centre_x_m, h.lean_rad, view_);
   }
 
   bool expected(const PlanarPose& body) const {
     if (!known_.body) return true;
-    const double far_m = std::max(0.0, hog_.distance_m);
-    const double y_slack_m = 4.0 * known_.body_sigma.y_m + 3.0 * scale_sigma_ * far_m + 0.05;
+    const double y_slack_m = 4.0 * known_.body_sigma.y_m + 3.0 * scale_sigma_ * hog_.distance_m + 0.05;
     return std::abs(body.x_m - known_.body->x_m) < 4.0 * known_.body_sigma.x_m + 3.0 * scale_sigma_ + 0.1 &&
            std::abs(body.y_m - known_.body->y_m) < y_slack_m &&
            std::abs(body.yaw_rad - known_.body->yaw_rad) < 4.0 * known_.body_sigma.yaw_rad + 0.02;
@@ -127,12 +171,15 @@ class Judge {
 
   const CrossCandidate& hog_;
   const HKnowledge& known_;
-  double scale_sigma_;
+  const GroundView& view_;
+  double height_m_;
+  double scale_sigma_ = 0.0;
 };
 
-void try_all(const CrossCandidate& hog, const std::vector<Intercept>& lines, const HKnowledge& known,
-             std::vector<HShape>& found) {
-  const Judge judge(hog, known);
+std::optional<HShape> best_about(const CrossCandidate& hog, const std::vector<ClassifiedLine>& down_ice,
+                                 const HKnowledge& known, const GroundView& view) {
+  const Judge judge(hog, known, view);
+  const std::vector<Intercept> lines = judge.intercepts(down_ice);
   std::vector<const Intercept*> left{nullptr};
   std::vector<const Intercept*> right{nullptr};
   std::vector<const Intercept*> centre{nullptr};
@@ -145,20 +192,22 @@ void try_all(const CrossCandidate& hog, const std::vector<Intercept>& lines, con
   for (const Intercept* l : left) {
     for (const Intercept* r : right) {
       for (const Intercept* c : centre) {
-        const auto h = judge.weigh({l, r, c});
+        const auto h = judge.weigh(l, r, c);
         if (h && (!best || h->error_m < best->error_m)) best = h;
       }
     }
   }
-  if (best) found.push_back(*best);
+  return best;
 }
 
 }  // namespace
 
 std::vector<HShape> choose_h(const std::vector<CrossCandidate>& hog_lines, const std::vector<ClassifiedLine>& down_ice,
-                             const HKnowledge& known) {
+                             const HKnowledge& known, const GroundView& view) {
   std::vector<HShape> found;
-  for (const CrossCandidate& hog : hog_lines) try_all(hog, intercepts(hog, down_ice, known), known, found);
+  for (const CrossCandidate& hog : hog_lines) {
+    if (const auto h = best_about(hog, down_ice, known, view)) found.push_back(*h);
+  }
   std::sort(found.begin(), found.end(), [](const HShape& a, const HShape& b) { return a.error_m < b.error_m; });
   return found;
 }

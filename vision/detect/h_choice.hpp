@@ -17,22 +17,23 @@ struct HShape {
   std::optional<ClassifiedLine> left;
   std::optional<ClassifiedLine> right;
   std::optional<ClassifiedLine> centre;
-  double error_m = 0.0;           ///< the three terms, in metres; what is missing costs
-  PlanarPose body;                ///< from the intercepts
+  double error_m = 0.0;     ///< the three terms, in metres; what is missing costs
+  double centre_x_m = 0.0;  ///< where the centre line meets the hog line, to the right of the foot of b's perpendicular
+  PlanarPose body;          ///< from the intercepts
+  double lean_rad = 0.0;    ///< how much more the camera looks down than its mount says, from the down-ice lines
   std::optional<double> width_m;  ///< from the intercepts, where sidelines were seen
 };
 
 /// What is known of the sheet and the body beforehand.
 struct HKnowledge {
-  double width_m = rules::nominal_width_m;
-  double width_sigma_m = 0.3;  ///< sheets are 4.318 to 5.0 m wide
+  std::optional<double> width_m;  ///< as measured before; empty: anything from 4.318 to 5.0 m
+  double width_sigma_m = 0.03;    ///< of `width_m`, where it is given
   std::optional<PlanarPose> body;
   PlanarSigma body_sigma;
-  double camera_height_m = 0.5;
 };
 
 /// The best first; empty when no hog line candidate goes with anything that runs down-ice.
 std::vector<HShape> choose_h(const std::vector<CrossCandidate>& hog_lines, const std::vector<ClassifiedLine>& down_ice,
-                             const HKnowledge& known);
+                             const HKnowledge& known, const GroundView& view);
 
 }  // namespace hogline::vision

@@ -15,7 +15,8 @@ struct CrossCandidate {
   double distance_m = 0.0;  ///< from b's origin, along e's y, to the paint's middle
   int supporters = 0;       ///< blocks of columns in which it was seen
   double visible = 0.0;     ///< share of the columns, within the narrowest sheet about the body, in which it was seen
-  double contrast = 0.0;    ///< median of the ridges'
+  double contrast = 0.0;    ///< median where it was seen
+  double evidence = 0.0;    ///< mean contrast over all those columns, in standard deviations of that mean
   double width_m = 0.0;     ///< median of the ridges'; 0 where too few pixels tell
   double begin_x_m = 0.0;   ///< its ends, to the right of the body in ground coordinates
   double end_x_m = 0.0;

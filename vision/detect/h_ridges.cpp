@@ -12,10 +12,15 @@ namespace {
 constexpr float most_light = 1.5F;     // a lamp's reflection counts no more than this
 constexpr float least_light = 0.08F;   // sides darker than this are no ice
 constexpr float weakest = 0.05F;       // a ridge weaker than this is noise
+constexpr int read_every_px = 2;       // columns of a block: neighbours share their noise after demosaicing
+constexpr int least_side_rows = 3;     // of ice beside the paint
 constexpr double measurable_px = 3.0;  // paint thinner than this in the picture has no width to measure
 constexpr std::size_t index_of(int block, int rows, int row) {
   return static_cast<std::size_t>(block) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row);
 }
+
+// Wide paint is found in every few rows; its edges then tell its middle.
+int row_step(float thickness_px) { return thickness_px > 12.0F ? static_cast<int>(thickness_px / 6.0F) : 1; }
 
 }  // namespace
 
@@ -28,7 +33,7 @@ HogRidgeFinder::HogRidgeFinder(const GroundView& view, double range_m)
       blocks_(view.setup().intrinsics.width_px / block_px),
       thickness_px_(index_of(blocks_, rows_, 0), std::numeric_limits<float>::quiet_NaN()),
       light_(thickness_px_.size(), 0.0F),
-      sum_(static_cast<std::size_t>(rows_) + 1, 0.0F) {
+      sum_(index_of(blocks_, rows_ + 1, 0), 0.0F) {
   const auto ahead = [&](double u, double v) {
     const auto n = view_.plane({u, v});
     const auto g = n ? view_.ground_of_plane(*n) : std::nullopt;
@@ -82,33 +87,67 @@ void HogRidgeFinder::darkest(const cv::Mat& image) {
     const std::uint8_t* p = image.ptr<std::uint8_t>(top_ + r);
     for (int b = 0; b < blocks_; ++b) {
       float sum = 0.0F;
-      for (int i = 0; i < block_px; ++i, p += channels) {
+      for (int i = 0; i < block_px; i += read_every_px, p += read_every_px * channels) {
         float least = white_[0][p[0]];
         if (channels == 3) least = std::min(least, std::min(white_[1][p[1]], white_[2][p[2]]));
         sum += least;
       }
-      light_[index_of(b, rows_, r)] = sum / block_px;
+      light_[index_of(b, rows_, r)] = sum * read_every_px / block_px;
     }
+  }
+  for (int b = 0; b < blocks_; ++b) {
+    const float* light = &light_[index_of(b, rows_, 0)];
+    float* sum = &sum_[index_of(b, rows_ + 1, 0)];
+    for (int r = 0; r < rows_; ++r) sum[r + 1] = sum[r] + light[r];
   }
 }
 
-void HogRidgeFinder::search(int block, std::vector<HogRidge>& found) {
-  const float* light = &light_[index_of(block, rows_, 0)];
-  const float* thickness = &thickness_px_[index_of(block, rows_, 0)];
-  for (int r = 0; r < rows_; ++r) sum_[static_cast<std::size_t>(r) + 1] = sum_[static_cast<std::size_t>(r)] + light[r];
-  const auto mean = [&](int from, int to) {  // rows [from, to)
-    return (sum_[static_cast<std::size_t>(to)] - sum_[static_cast<std::size_t>(from)]) / static_cast<float>(to - from);
-  };
+std::optional<HogRidgeFinder::Profile> HogRidgeFinder::profile(int block, int row) const {
+  const float t = thickness_px_[index_of(block, rows_, row)];
+  if (!(t > 0.0F) || t > static_cast<float>(rows_) / 4.0F) return std::nullopt;
+  const int half = static_cast<int>(t / 2.0F);
+  const int gap = 1 + static_cast<int>(t / 8.0F);
+  const int side = std::clamp(static_cast<int>(t), 3, 40);
+  const int from = row - half;
+  const int to = row + half + 1;
+  const int below_end = std::min(to + gap + side, rows_);
+  if (from - gap - side < 0 || below_end - to - gap < least_side_rows) return std::nullopt;
+  const float* sum = &sum_[index_of(block, rows_ + 1, 0)];
+  const auto mean = [sum](int begin, int end) { return (sum[end] - sum[begin]) / static_cast<float>(end - begin); };
+  Profile p{mean(from, to), mean(from - gap - side, from - gap), mean(to + gap, below_end), 0.0F};
+  if (std::min(p.above, p.below) < least_light) return std::nullopt;
+  p.taken =
+      static_cast<float>(to - from + 2 * gap) * (1.0F - mean(from - gap, to + gap) / (0.5F * (p.above + p.below)));
+  return p;
+}
 
+std::optional<double> HogRidgeFinder::contrast_at(int block, double row_px) const {
+  const int row = static_cast<int>(std::lround(row_px)) - top_;
+  if (block < 0 || block >= blocks_ || row < 0 || row >= rows_) return std::nullopt;
+  const auto p = profile(block, row);
+  if (!p) return std::nullopt;
+  const float share = p->taken / std::max(thickness_px_[index_of(block, rows_, row)], 0.1F);
+  // What is darker on one side only is an edge, no line.
+  return static_cast<double>(std::clamp(p->strength() > 0.0F ? share : std::min(share, 0.0F), -1.0F, 1.0F));
+}
+
+void HogRidgeFinder::search(int block, std::vector<HogRidge>& found) const {
+  const float* thickness = &thickness_px_[index_of(block, rows_, 0)];
   HogRidge best;
   int best_row = -1;
-  float best_sides = 0.0F;
+  float best_level = 0.0F;
   const auto keep = [&] {
     if (best_row < 0) return;
-    best.pixel = {column_px(block), static_cast<double>(top_ + best_row)};
-    const auto level = static_cast<double>(best_sides) * (1.0 - 0.5 * best.strength);
-    best.width_m =
-        static_cast<double>(thickness[best_row]) >= measurable_px ? measured_width(block, best_row, level) : 0.0;
+    const double t = static_cast<double>(thickness[best_row]);
+    double row = best_row;
+    best.width_m = 0.0;
+    if (t >= measurable_px) {
+      const Edges e = edges(block, best_row, static_cast<double>(best_level));
+      best.width_m = (e.near_px - e.far_px) / t * rules::hog_line_width_m;
+      if (std::abs(best.width_m - rules::hog_line_width_m) < 0.3 * rules::hog_line_width_m)
+        row = 0.5 * (e.near_px + e.far_px);
+    }
+    best.pixel = {column_px(block), top_ + row};
     if (const auto ice = camera_.paint_at(best.pixel)) {
       best.ice = *ice;
       found.push_back(best);
@@ -116,35 +155,22 @@ void HogRidgeFinder::search(int block, std::vector<HogRidge>& found) {
     best_row = -1;
   };
 
-  for (int r = 0; r < rows_; ++r) {
-    const float t = thickness[r];
-    if (!(t > 0.0F) || t > static_cast<float>(rows_) / 4.0F) continue;
-    const int half = static_cast<int>(t / 2.0F);
-    const int gap = 1 + static_cast<int>(t / 8.0F);
-    const int side = std::clamp(static_cast<int>(t), 3, 40);
-    const int from = r - half;
-    const int to = r + half + 1;
-    if (from - gap - side < 0 || to + gap + side > rows_) continue;
-    const float above = mean(from - gap - side, from - gap);
-    const float below = mean(to + gap, to + gap + side);
-    const float sides = std::min(above, below);
-    const float inside = mean(from, to);
-    const float strength = sides > least_light ? 1.0F - inside / sides : 0.0F;
-    if (best_row >= 0 && r - best_row > std::max(2, half)) keep();
+  for (int r = 0; r < rows_; r += row_step(thickness[r])) {
+    const auto p = profile(block, r);
+    if (!p) continue;
+    if (best_row >= 0 && r - best_row > std::max(2, static_cast<int>(thickness[r] / 2.0F))) keep();
+    const float strength = p->strength();
     if (strength < weakest || (best_row >= 0 && static_cast<double>(strength) <= best.strength)) continue;
-    const float rows_taken = static_cast<float>(to - from + 2 * gap);
-    const float taken = rows_taken * (1.0F - mean(from - gap, to + gap) / (0.5F * (above + below)));
     best.column = block;
     best.strength = static_cast<double>(strength);
-    best.contrast = std::clamp(static_cast<double>(taken / std::max(t, 0.1F)), 0.0, 1.0);
+    best.contrast = static_cast<double>(std::clamp(p->taken / std::max(thickness[r], 0.1F), 0.0F, 1.0F));
     best_row = r;
-    best_sides = sides;
+    best_level = 0.5F * (std::min(p->above, p->below) + p->inside);
   }
   keep();
 }
 
-// From where it crosses the level half way between paint and ice above the row to where it does below.
-double HogRidgeFinder::measured_width(int block, int row, double level) const {
+HogRidgeFinder::Edges HogRidgeFinder::edges(int block, int row, double level) const {
   const float* light = &light_[index_of(block, rows_, 0)];
   const auto crossing = [&](int step) {
     int r = row;
@@ -153,8 +179,7 @@ double HogRidgeFinder::measured_width(int block, int row, double level) const {
     const double rise = static_cast<double>(light[r + step] - light[r]);
     return r + step * (rise > 0.0 ? std::clamp((level - static_cast<double>(light[r])) / rise, 0.0, 1.0) : 0.0);
   };
-  return (crossing(1) - crossing(-1)) / static_cast<double>(thickness_px_[index_of(block, rows_, row)]) *
-         rules::hog_line_width_m;
+  return {crossing(-1), crossing(1)};
 }
 
 }  // namespace hogline::vision

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "vision/detect/ground_view.hpp"
@@ -32,16 +33,39 @@ class HogRidgeFinder {
   std::vector<HogRidge> find(const cv::Mat& image);
 
   int blocks() const { return blocks_; }
+  /// Of the last picture, at a line's middle: how much light paint of a hog line's width takes away there, 0..1; about
+  /// zero, of either sign, on bare ice. Nothing outside the range, or where the sides are no ice.
+  std::optional<double> contrast_at(int block, double row_px) const;
+
+  const SheetCamera& camera() const { return camera_; }
   /// The middle of a block of columns, px.
   double column_px(int block) const { return block * block_px + 0.5 * (block_px - 1); }
+
+  int block_of(double column_px) const { return static_cast<int>(column_px) / block_px; }
 
   static constexpr int block_px = 4;
 
  private:
   void whiten(const cv::Mat& image);
   void darkest(const cv::Mat& image);
-  void search(int block, std::vector<HogRidge>& found);
-  double measured_width(int block, int row, double level) const;
+  void search(int block, std::vector<HogRidge>& found) const;
+
+  /// Light in the paint and beside it, if a hog line's middle were in this row.
+  struct Profile {
+    float inside;
+    float above;
+    float below;
+    float taken;  ///< rows' worth of light, over the rows the paint's blur reaches
+    float strength() const { return 1.0F - inside / std::min(above, below); }
+  };
+  std::optional<Profile> profile(int block, int row) const;
+
+  /// Where the light crosses a level above and below a row, px rows from the top of the searched part.
+  struct Edges {
+    double far_px;
+    double near_px;
+  };
+  Edges edges(int block, int row, double level) const;
 
   const GroundView& view_;
   ResponseCurve response_;
@@ -52,7 +76,7 @@ class HogRidgeFinder {
   std::vector<float> thickness_px_;  ///< of hog-line paint, [block][row]; NaN where there is no ice in range
   std::array<std::array<float, 256>, 3> white_{};
   std::vector<float> light_;  ///< darkest colour over white, [block][row]
-  std::vector<float> sum_;    ///< running sum of one block
+  std::vector<float> sum_;    ///< its running sum, [block][row], one more than there are rows
 };
 
 }  // namespace hogline::vision

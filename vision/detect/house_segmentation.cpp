@@ -12,7 +12,8 @@ namespace {
 constexpr double cell_m = 0.05;
 constexpr double nearest_m = 0.2;  // ice ahead of the body's origin
 constexpr double deepest_m = 8.0;  // the house ends before
-constexpr int kernel_cells = 41;   // 2 m: there is white ice within it wherever one stands in a house
+constexpr int block_cells = 20;    // 1 m
+constexpr double ice_percentile = 0.7;
 constexpr int attempts = 3;
 
 double right_of(const ClassifiedLine& line, double ahead_m) {
@@ -44,11 +45,40 @@ Samples sample(const cv::Mat& image, const ResponseCurve& response, const Ground
   return s;
 }
 
+// The light of white ice, block by block: a high percentile, which lamps' reflections do not reach, and the best of the
+// neighbouring blocks, for those that paint fills.
+cv::Mat ice_light(const Samples& s) {
+  const cv::Size blocks(s.light.cols / block_cells + 1, s.light.rows / block_cells + 1);
+  cv::Mat level(blocks, CV_32FC3, cv::Scalar::all(0));
+  std::vector<float> values;
+  for (int r = 0; r < blocks.height; ++r) {
+    for (int c = 0; c < blocks.width; ++c) {
+      const cv::Rect area = cv::Rect(c * block_cells, r * block_cells, block_cells, block_cells) &
+                            cv::Rect(0, 0, s.light.cols, s.light.rows);
+      for (int k = 0; k < 3; ++k) {
+        values.clear();
+        for (int y = area.y; y < area.br().y; ++y) {
+          for (int x = area.x; x < area.br().x; ++x) {
+            if (s.inside.at<std::uint8_t>(y, x) != 0) values.push_back(s.light.at<cv::Vec3f>(y, x)[k]);
+          }
+        }
+        if (values.size() < 20) continue;
+        const auto place =
+            values.begin() + static_cast<std::ptrdiff_t>(ice_percentile * static_cast<double>(values.size()));
+        std::nth_element(values.begin(), place, values.end());
+        level.at<cv::Vec3f>(r, c)[k] = *place;
+      }
+    }
+  }
+  cv::dilate(level, level, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  cv::Mat ice;
+  cv::resize(level, ice, s.light.size(), 0.0, 0.0, cv::INTER_LINEAR);
+  return ice;
+}
+
 // Colour relative to the white ice near by, so that shade and vignetting do not make colours of their own.
 cv::Mat relative_to_ice(const Samples& s) {
-  cv::Mat ice;
-  cv::dilate(s.light, ice, cv::getStructuringElement(cv::MORPH_RECT, {kernel_cells, kernel_cells}));
-  cv::blur(ice, ice, {kernel_cells, kernel_cells});
+  const cv::Mat ice = ice_light(s);
   cv::Mat relative(s.light.size(), CV_32FC3);
   for (int r = 0; r < s.light.rows; ++r) {
     for (int c = 0; c < s.light.cols; ++c) {
@@ -56,7 +86,7 @@ cv::Mat relative_to_ice(const Samples& s) {
       const cv::Vec3f& white = ice.at<cv::Vec3f>(r, c);
       for (int k = 0; k < 3; ++k) {
         // The square root spreads dark paints apart and evens the noise out.
-        relative.at<cv::Vec3f>(r, c)[k] = std::sqrt(std::clamp(light[k] / std::max(white[k], 1e-4F), 0.0F, 1.5F));
+        relative.at<cv::Vec3f>(r, c)[k] = std::sqrt(std::clamp(light[k] / std::max(white[k], 1e-4F), 0.0F, 1.0F));
       }
     }
   }
@@ -72,7 +102,7 @@ std::optional<HouseSegmentation> segment_house(const cv::Mat& image, const Respo
   const IceGrid grid{{-half_width_m, nearest_m}, cell_m};
   const int columns = static_cast<int>(2.0 * half_width_m / cell_m) + 1;
   const int rows = static_cast<int>((depth_m - nearest_m) / cell_m);
-  if (rows < kernel_cells) return std::nullopt;
+  if (rows < 2 * block_cells) return std::nullopt;
   const Samples s = sample(image, response, view, area, grid, rows, columns);
   const cv::Mat relative = relative_to_ice(s);
 

@@ -161,7 +161,7 @@ Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
     return row;
   };
   if (start.roll_sigma_rad > 0.0) p.add(turn_about(0), -roll, start.roll_sigma_rad);
-  if (start.pitch_sigma_rad > 0.0) p.add(turn_about(1), -pitch, start.pitch_sigma_rad);
+  if (start.pitch_sigma_rad > 0.0) p.add(turn_about(1), start.pitch_offset_rad - pitch, start.pitch_sigma_rad);
   if (start.height_sigma_m > 0.0) {
     row.setZero();
     row.segment<3>(0) = state.eMc.linear().row(2);

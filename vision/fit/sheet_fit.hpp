@@ -21,6 +21,7 @@ struct SheetFitStart {
   double sheet_width_sigma_m = 0.02;    ///< of that guess, where it is given
   double roll_sigma_rad = 0.0;          ///< weak prior on the mount's roll, 0 for none
   double pitch_sigma_rad = 0.0;         ///< weak prior on the mount's pitch, 0 for none
+  double pitch_offset_rad = 0.0;        ///< the prior's middle, from the mount's pitch; positive looks down more
   double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
   double travel_m = 0.0;                ///< of the camera along y during the exposure: motion blur to expect
   double paint_depth_sigma_m = 0.0;     ///< prior on the setup's paint depth; 0: taken as given, else estimated too

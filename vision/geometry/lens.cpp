@@ -1,6 +1,7 @@
 #include "vision/geometry/lens.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -56,8 +57,27 @@ Distorted brown_distort(const std::array<double, 5>& k, const Eigen::Vector2d& n
   return d;
 }
 
-constexpr int max_iterations = 30;
+constexpr int max_iterations = 60;
 constexpr double converged = 1e-14;
+
+// The r in [0, limit] with r * f(r^2) = target, which grows there: Newton, kept inside a shrinking bracket so that a
+// strongly bent lens can not throw it over the fold. Nothing when the target lies beyond.
+template <typename Radial>
+std::optional<double> undistorted_radius(const Radial& radial, double target, double limit) {
+  double low = 0.0;
+  double high = limit;
+  if (!(target <= limit * radial(limit * limit).value)) return std::nullopt;
+  double r = std::min(target, limit);
+  for (int i = 0; i < max_iterations; ++i) {
+    const RadialFactor f = radial(r * r);
+    const double error = r * f.value - target;
+    if (std::abs(error) < converged * (1.0 + target)) break;
+    (error > 0.0 ? high : low) = r;
+    const double next = r - error / (f.value + 2.0 * r * r * f.derivative);
+    r = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return r;
+}
 
 }  // namespace
 
@@ -125,7 +145,12 @@ std::optional<Eigen::Vector3d> Lens::ray(const Eigen::Vector2d& pixel) const {
 }
 
 std::optional<Eigen::Vector3d> Lens::ray_brown_conrady(const Eigen::Vector2d& normalised) const {
-  Eigen::Vector2d n = normalised;
+  const double radius_d = normalised.norm();
+  if (radius_d < 1e-15) return Eigen::Vector3d::UnitZ();
+  const auto radius =
+      undistorted_radius([this](double r2) { return brown_radial(intrinsics_.distortion, r2); }, radius_d, max_radius_);
+  // Tangential distortion may push a point just over the radial limit: start on it and let the check below decide.
+  Eigen::Vector2d n = normalised * (radius.value_or(max_radius_) / radius_d);
   for (int i = 0; i < max_iterations; ++i) {
     const Distorted d = brown_distort(intrinsics_.distortion, n);
     const Eigen::Vector2d error = normalised - d.point;
@@ -142,18 +167,11 @@ std::optional<Eigen::Vector3d> Lens::ray_brown_conrady(const Eigen::Vector2d& no
 std::optional<Eigen::Vector3d> Lens::ray_kannala_brandt(const Eigen::Vector2d& normalised) const {
   const double theta_d = normalised.norm();
   if (theta_d < 1e-15) return Eigen::Vector3d::UnitZ();
-  double theta = std::min(theta_d, max_radius_);
-  for (int i = 0; i < max_iterations; ++i) {
-    const RadialFactor f = kannala_radial(intrinsics_.distortion, theta * theta);
-    const double error = theta_d - theta * f.value;
-    if (std::abs(error) < converged) break;
-    theta += error / (f.value + 2.0 * theta * theta * f.derivative);
-    if (!std::isfinite(theta)) return std::nullopt;
-  }
-  const double reached = theta * kannala_radial(intrinsics_.distortion, theta * theta).value;
-  if (theta < 0.0 || theta > max_radius_ || std::abs(reached - theta_d) > 1e-12) return std::nullopt;
+  const auto theta = undistorted_radius([this](double t2) { return kannala_radial(intrinsics_.distortion, t2); },
+                                        theta_d, max_radius_);
+  if (!theta) return std::nullopt;
   const Eigen::Vector2d u = normalised / theta_d;
-  return Eigen::Vector3d(std::sin(theta) * u.x(), std::sin(theta) * u.y(), std::cos(theta));
+  return Eigen::Vector3d(std::sin(*theta) * u.x(), std::sin(*theta) * u.y(), std::cos(*theta));
 }
 
 bool Lens::in_picture(const Eigen::Vector2d& pixel, double margin_px) const {

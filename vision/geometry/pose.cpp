@@ -20,12 +20,15 @@ const Eigen::Matrix3d& body_axes_from_optical() {
 
 // The left Jacobian of SO(3): its product with the linear part of a twist is the translation of its exponential.
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
+  const double a2 = w.squaredNorm();
+  const double angle = std::sqrt(a2);
   const Eigen::Matrix3d W = skew(w);
-  if (angle < 1e-6) return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
-  const double a2 = angle * angle;
-  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / a2 * W +
-         (angle - std::sin(angle)) / (a2 * angle) * W * W;
+  // 1 - cos and a - sin lose their digits below about 1e-2: the series is exact to 1e-17 there.
+  const bool small = angle < 1e-2;
+  const double half_sine = std::sin(0.5 * angle);
+  const double first = small ? 0.5 - a2 / 24.0 + a2 * a2 / 720.0 : 2.0 * half_sine * half_sine / a2;
+  const double second = small ? 1.0 / 6.0 - a2 / 120.0 + a2 * a2 / 5040.0 : (angle - std::sin(angle)) / (a2 * angle);
+  return Eigen::Matrix3d::Identity() + first * W + second * W * W;
 }
 
 }  // namespace
