@@ -26,10 +26,12 @@ constexpr double least_share = 0.4;  // of the places looked at
 
 // Prior of a paint's width about what the scan saw, and of a divider's place.
 constexpr double paint_sigma_m = 0.015;
-constexpr double given_width_sigma_m = 0.02;
 
 // Error common to a whole feature: paint against the rules, lens against its calibration.
 constexpr double shared_error_px = 0.03;
+
+// A divider's shade and mirror image move both its feet the same way: measured 3 to 5 mm of width from 2 m above.
+constexpr double foot_sigma_m = 0.004;
 
 // Of the whole sheet's paint against the rules' numbers, which no residual shows.
 constexpr double painted_sigma_m = 0.0003;
@@ -79,6 +81,7 @@ struct SheetFit::Impl {
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
   double borne_out() const;
+  bool sidelines_borne_out() const;
   bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
                    const std::optional<Consensus>& consensus);
@@ -174,7 +177,7 @@ Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
   }
   if (start.sheet_width_m && state.sidelines[0].known && state.sidelines[1].known) {
     p.add(unit(parameter::left_edge) + unit(parameter::right_edge),
-          *start.sheet_width_m - state.sidelines[0].edge_m - state.sidelines[1].edge_m, given_width_sigma_m);
+          *start.sheet_width_m - state.sidelines[0].edge_m - state.sidelines[1].edge_m, start.sheet_width_sigma_m);
   }
   const double depth_sigma = start.paint_depth_sigma_m > 0.0 ? start.paint_depth_sigma_m : held;
   p.add(unit(parameter::depth), setup.ice.paint_depth_m - state.paint_depth_m, depth_sigma);
@@ -286,7 +289,11 @@ void SheetFit::Impl::drop_odd_colours() {
 void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitStart& start) {
   if (setup.sheet.sideline == SidelineKind::none) return;
   ScanRange range{0.5 * rules::min_width_m - 0.05, 0.5 * rules::max_width_m + 0.05};
-  if (start.sheet_width_m) range = {0.5 * *start.sheet_width_m - 0.04, 0.5 * *start.sheet_width_m + 0.04};
+  if (start.sheet_width_m) {
+    const double slack_m = 0.02 + 1.5 * start.sheet_width_sigma_m;
+    range = {std::max(range.begin_m, 0.5 * *start.sheet_width_m - slack_m),
+             std::min(range.end_m, 0.5 * *start.sheet_width_m + slack_m)};
+  }
   const bool bumper = setup.sheet.sideline == SidelineKind::bumper;
   const SheetCamera paint = camera();
   const SheetCamera surface(lens, state.eMc, Ice{0.0, setup.ice.refractive_index});
@@ -298,6 +305,18 @@ void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitSta
   }
 }
 
+// No sideline is planned, or most of its sites fit.
+bool SheetFit::Impl::sidelines_borne_out() const {
+  double planned = 0.0;
+  double agreed = 0.0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (sites[i].feature < left_sideline_feature) continue;
+    planned += 1.0;
+    agreed += step.weight[i];
+  }
+  return agreed >= 0.6 * planned;
+}
+
 void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
                             int half_breadth) {
   plan(start, spacing_px);
@@ -307,20 +326,24 @@ void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& star
 }
 
 void SheetFit::Impl::report_width() {
-  const auto& left = state.sidelines[0];
-  const auto& right = state.sidelines[1];
   std::array<int, 2> used{};
+  std::array<int, 2> seen{};
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (sites[i].feature >= left_sideline_feature && step.weight[i] > 0.0) {
-      ++used[static_cast<std::size_t>(sites[i].feature - left_sideline_feature)];
-    }
+    if (sites[i].feature < left_sideline_feature) continue;
+    const auto side = static_cast<std::size_t>(sites[i].feature - left_sideline_feature);
+    used[side] += step.weight[i] > 0.0 ? 1 : 0;
+    seen[side] += found[i].found ? 1 : 0;
   }
-  if (!left.known || !right.known || used[0] < 5 || used[1] < 5) return;
-  result.sheet_width_m = left.edge_m + right.edge_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double least = state.sidelines[side].moves_camera ? 0.4 : 0.8;
+    if (!state.sidelines[side].known || used[side] < 8 || used[side] < least * seen[side]) return;
+  }
+  result.sheet_width_m = state.sidelines[0].edge_m + state.sidelines[1].edge_m;
   const double variance = covariance(parameter::left_edge, parameter::left_edge) +
                           covariance(parameter::right_edge, parameter::right_edge) +
                           2.0 * covariance(parameter::left_edge, parameter::right_edge);
-  result.sheet_width_sigma_m = std::sqrt(std::max(variance, 0.0));
+  const double feet_m = setup.sheet.sideline == SidelineKind::line ? 0.0 : foot_sigma_m;
+  result.sheet_width_sigma_m = std::hypot(std::sqrt(std::max(variance, 0.0)), feet_m);
 }
 
 void SheetFit::Impl::report_sites() {
@@ -400,9 +423,12 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
 
   if (!arrive(light, start)) return result;
 
-  find_sidelines(light, start);
-  refine(light, start, 18.0, 2.5, 1);
-  if (!move_by(step.change)) return refuse("the fit ran away");
+  for (int round = 0; round < 3; ++round) {
+    find_sidelines(light, start);
+    refine(light, start, 18.0, 2.5, 1);
+    if (!move_by(step.change)) return refuse("the fit ran away");
+    if (sidelines_borne_out()) break;
+  }
 
   refine(light, start, 12.0, 1.5, 2);
   if (!move_by(step.change)) return refuse("the fit ran away");

@@ -18,6 +18,7 @@ struct SheetFitStart {
   Pose eMc;                             ///< rough camera pose in e
   double search_px = 8.0;               ///< edges are looked for within this of where `eMc` puts them
   std::optional<double> sheet_width_m;  ///< a first guess of the width; empty: sidelines are not used at first
+  double sheet_width_sigma_m = 0.02;    ///< of that guess, where it is given
   double roll_sigma_rad = 0.0;          ///< weak prior on the mount's roll, 0 for none
   double pitch_sigma_rad = 0.0;         ///< weak prior on the mount's pitch, 0 for none
   double pitch_offset_rad = 0.0;        ///< the prior's middle, from the mount's pitch; positive looks down more

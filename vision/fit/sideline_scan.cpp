@@ -9,62 +9,101 @@ namespace {
 
 constexpr double step_m = 0.005;
 constexpr int most_steps = 128;
-constexpr int most_rows = 24;
-constexpr double row_step_m = 0.3;
-constexpr double most_coarse_px_m = 0.02;  // a row whose pixel covers more than this across can not tell
+constexpr int most_rows = 40;
+constexpr double row_step_m = 0.25;
+constexpr double most_m_per_px = 0.015;  // a row whose pixel covers more than this across can not tell
+constexpr double ice_m = 0.06;           // each row begins with this much ice
+constexpr double beyond_m = 0.08;        // and ends with this much beyond the range
+constexpr double most_paint_m = 0.10;
+constexpr double least_paint_m = 0.008;
 
-using Section = std::array<std::array<float, most_steps>, 3>;
+// One row of the sheet's cross section: how far each place's light is from the ice at the row's beginning.
+struct Row {
+  std::array<float, most_steps> unlike{};
+  float most = 0.0F;
+  float noise = 0.0F;
+};
 
-struct Rows {
-  std::array<Section, most_rows> light;
+// A stretch unlike the ice.
+struct Stretch {
+  double begin_m;
+  double length_m;
+};
+
+struct Stretches {
+  static constexpr int most = 4 * most_rows;
+  std::array<Stretch, most> at{};
   int count = 0;
+
+  void add(const Stretch& stretch) {
+    if (count < most) at[static_cast<std::size_t>(count++)] = stretch;
+  }
 };
 
 bool read_row(const PictureLight& light, const SheetCamera& camera, double side, double y, double begin_m, int steps,
-              Section& row) {
+              Row& row) {
+  std::array<std::array<float, 3>, most_steps> colour{};
   Profile one;
   Eigen::Vector2d last = Eigen::Vector2d::Zero();
   for (int i = 0; i < steps; ++i) {
     const auto pixel = camera.project_paint({side * (begin_m + i * step_m), y});
     if (!pixel || !sample(light.picture, light.response, {*pixel, {1.0, 0.0}, 0.0, 0.0, 1.0, 0}, one)) return false;
-    if (i > 0 && step_m / std::max((*pixel - last).norm(), 1e-9) > most_coarse_px_m) return false;
+    if (i > 0 && step_m / std::max((*pixel - last).norm(), 1e-9) > most_m_per_px) return false;
     last = *pixel;
-    for (std::size_t c = 0; c < 3; ++c) {
-      row[c][static_cast<std::size_t>(i)] = c < static_cast<std::size_t>(one.channels) ? one.light[c][0] : 0.0F;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(one.channels); ++c) {
+      colour[static_cast<std::size_t>(i)][c] = one.light[c][0];
     }
+  }
+  constexpr int ice_steps = static_cast<int>(ice_m / step_m);
+  std::array<float, 3> ice{};
+  for (std::size_t i = 0; i < ice_steps; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) ice[c] += colour[i][c] / ice_steps;
+  }
+  row.most = row.noise = 0.0F;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i) {
+    float sum = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) sum += (colour[i][c] - ice[c]) * (colour[i][c] - ice[c]);
+    row.unlike[i] = std::sqrt(sum);
+    row.most = std::max(row.most, row.unlike[i]);
+    if (i < ice_steps) row.noise = std::max(row.noise, row.unlike[i]);
   }
   return true;
 }
 
-Section median_of(const Rows& rows, int steps) {
-  Section section{};
-  std::array<float, most_rows> values{};
-  const auto n = static_cast<std::ptrdiff_t>(rows.count);
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i) {
-      for (int r = 0; r < rows.count; ++r)
-        values[static_cast<std::size_t>(r)] = rows.light[static_cast<std::size_t>(r)][c][i];
-      std::nth_element(values.begin(), values.begin() + n / 2, values.begin() + n);
-      section[c][i] = values[static_cast<std::size_t>(n / 2)];
-    }
-  }
-  return section;
+// Where the row's rise or fall crosses `level` between two samples.
+double crossing_m(const Row& row, int before, float level, double begin_m) {
+  const float a = row.unlike[static_cast<std::size_t>(before)];
+  const float b = row.unlike[static_cast<std::size_t>(before + 1)];
+  const float t = std::abs(b - a) > 1e-9F ? (level - a) / (b - a) : 0.5F;
+  return begin_m + (before + static_cast<double>(t)) * step_m;
 }
 
-// The section's difference from the ice at its inner end.
-std::array<float, most_steps> unlike_ice(const Section& section, int steps, int ice_steps) {
-  std::array<float, 3> ice{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (int i = 0; i < ice_steps; ++i)
-      ice[c] += section[c][static_cast<std::size_t>(i)] / static_cast<float>(ice_steps);
+// A painted line is a narrow stretch; a divider goes on to the row's end or for long.
+void collect(const Row& row, int steps, double begin_m, bool as_line, Stretches& stretches) {
+  if (!(row.most > 0.02F && row.most > 4.0F * row.noise)) return;
+  const float level = 0.5F * row.most;
+  const auto above = [&](int i) { return row.unlike[static_cast<std::size_t>(i)] > level; };
+  for (int i = 1; i < steps; ++i) {
+    if (!above(i) || above(i - 1)) continue;
+    int end = i;
+    while (end < steps && above(end)) ++end;
+    const double start = crossing_m(row, i - 1, level, begin_m);
+    const double stop = end < steps ? crossing_m(row, end - 1, level, begin_m) : begin_m + end * step_m;
+    const bool narrow = end < steps && stop - start < most_paint_m && stop - start > least_paint_m;
+    const bool wide = stop - start > 0.06 || end == steps;
+    if (as_line ? narrow : wide) stretches.add({start, stop - start});
+    i = end;
   }
-  std::array<float, most_steps> unlike{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i) {
-    float sum = 0.0F;
-    for (std::size_t c = 0; c < 3; ++c) sum += (section[c][i] - ice[c]) * (section[c][i] - ice[c]);
-    unlike[i] = std::sqrt(sum);
+}
+
+constexpr double together_m = 0.012;
+
+int neighbours_of(const Stretches& stretches, double begin_m) {
+  int n = 0;
+  for (int i = 0; i < stretches.count; ++i) {
+    n += std::abs(stretches.at[static_cast<std::size_t>(i)].begin_m - begin_m) < together_m ? 1 : 0;
   }
-  return unlike;
+  return n;
 }
 
 }  // namespace
@@ -73,40 +112,44 @@ Sideline scan_sideline(const PictureLight& light, const SheetCamera& camera, dou
                        const ScanRange& range) {
   Sideline found;
   found.is_line = as_line;
-  constexpr double ice_m = 0.06;
-  constexpr double beyond_m = 0.07;
   const double begin_m = range.begin_m - ice_m;
-  const int steps = std::min(most_steps, static_cast<int>((range.end_m + beyond_m - begin_m) / step_m));
-  static thread_local Rows rows;
-  rows.count = 0;
+  const int steps = std::min(most_steps, static_cast<int>((range.end_m + beyond_m + most_paint_m - begin_m) / step_m));
   const double y0 = camera.eMc().translation().y();
-  for (int k = 0; k < 60 && rows.count < most_rows; ++k) {
-    Section& row = rows.light[static_cast<std::size_t>(rows.count)];
-    if (read_row(light, camera, side, y0 + k * row_step_m, begin_m, steps, row)) ++rows.count;
+  Stretches stretches;
+  Row row;
+  int rows = 0;
+  for (int k = 0; k < 60 && rows < most_rows; ++k) {
+    if (!read_row(light, camera, side, y0 + k * row_step_m, begin_m, steps, row)) continue;
+    ++rows;
+    collect(row, steps, begin_m, as_line, stretches);
   }
-  if (rows.count < 4) return found;
 
-  const auto ice_steps = static_cast<int>(ice_m / step_m);
-  const auto unlike = unlike_ice(median_of(rows, steps), steps, ice_steps);
-  const float most = *std::max_element(unlike.begin(), unlike.begin() + steps);
-  const float noise = *std::max_element(unlike.begin(), unlike.begin() + ice_steps);
-  if (!(most > 0.03F && most > 3.0F * noise)) return found;
-
-  // The first stretch that differs by more than half of the most; its half height is the edge.
-  int i = 0;
-  while (unlike[static_cast<std::size_t>(i)] < 0.5F * most) ++i;
-  int peak = i;
-  while (peak + 1 < steps && unlike[static_cast<std::size_t>(peak + 1)] > unlike[static_cast<std::size_t>(peak)])
-    ++peak;
-  const float half = 0.5F * unlike[static_cast<std::size_t>(peak)];
-  int inner = peak;
-  while (inner > 0 && unlike[static_cast<std::size_t>(inner - 1)] > half) --inner;
-  int outer = peak;
-  while (outer + 1 < steps && unlike[static_cast<std::size_t>(outer + 1)] > half) ++outer;
-  found.edge_m = begin_m + (inner - 0.5) * step_m;
-  found.known = found.edge_m > range.begin_m - step_m && found.edge_m < range.end_m + step_m;
-  found.paint_m = std::clamp((outer - inner + 1) * step_m, 0.01, 0.09);
-  if (as_line && outer + 1 >= steps) found.known = false;
+  // People's outlines lie elsewhere in each row; lines and dividers do not. The innermost place of many rows is ours.
+  int most = 0;
+  for (int i = 0; i < stretches.count; ++i) {
+    const Stretch& s = stretches.at[static_cast<std::size_t>(i)];
+    if (s.begin_m < range.end_m) most = std::max(most, neighbours_of(stretches, s.begin_m));
+  }
+  if (most < 4) return found;
+  double innermost = range.end_m;
+  for (int i = 0; i < stretches.count; ++i) {
+    const double at = stretches.at[static_cast<std::size_t>(i)].begin_m;
+    if (at > range.begin_m && at < innermost && neighbours_of(stretches, at) >= (most + 1) / 2) innermost = at;
+  }
+  double edge_sum = 0.0;
+  double paint_sum = 0.0;
+  int n = 0;
+  for (int i = 0; i < stretches.count; ++i) {
+    const Stretch& s = stretches.at[static_cast<std::size_t>(i)];
+    if (s.begin_m < innermost - 1e-9 || s.begin_m > innermost + 2.0 * together_m) continue;
+    edge_sum += s.begin_m;
+    paint_sum += s.length_m;
+    ++n;
+  }
+  if (n < 4) return found;
+  found.known = true;
+  found.edge_m = edge_sum / n;
+  found.paint_m = std::clamp(paint_sum / n, 0.01, 0.09);
   return found;
 }
 

@@ -25,9 +25,6 @@ SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site,
   SiteMeasurement m;
   const double before = window_px(site, site.before_px);
   const double after = window_px(site, site.after_px);
-  const double least = 1.2 * site.blur_px + 1.0;
-  if (before < least || after < least) return m;
-
   const double half = 0.5 * site.width_px;
   const int breadth = std::min(half_breadth, most_breadth(site));
   const Cut cut{site.pixel, site.normal, -half - before - search_px, half + after + search_px, 0.75, breadth};

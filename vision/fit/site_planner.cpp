@@ -17,6 +17,8 @@ constexpr double least_ground_step_m = 0.004;
 constexpr double most_ground_step_m = 0.4;
 constexpr double border_px = 3.0;
 
+double least_room_px(double blur_px) { return 1.2 * blur_px + 1.0; }
+
 // A divider's foot is seen between the shade it throws on the ice and its mirror image in it: measured 0.3-0.5 px of
 // scatter that neighbouring sites share, where paint has 0.1.
 constexpr double foot_floor_px = 0.5;
@@ -74,7 +76,8 @@ struct Planner {
     const Room room = room_around({curve.at(u), per_px, beside}, feature, state, 1.0 + 2.0 * site.blur_px, 40.0);
     site.before_px = room.before_px;
     site.after_px = room.after_px;
-    return room.before_px > 0.0 && room.after_px > 0.0;
+    const double least = least_room_px(site.blur_px);
+    return room.before_px >= least && room.after_px >= least;
   }
 
   // Steps along the curve evenly in the picture and hands each visible place to `use(u, projection, step_px)`.
@@ -153,6 +156,7 @@ struct Planner {
       site.pixel += 0.5 * (t1 + t2) * site.normal;
       site.before_px -= 0.5 * site.width_px;
       site.after_px -= 0.5 * site.width_px;
+      if (std::min(site.before_px, site.after_px) < least_room_px(site.blur_px)) return;
       if (edge_parameter >= 0) {
         const double by_x = side * site.normal.dot(seen.by_paint.col(0));
         site.along[edge_parameter] = by_x;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "src/config/config_error.hpp"
@@ -42,7 +43,7 @@ TEST(Rig, is_read_in_SI_units_and_radians) {
   EXPECT_DOUBLE_EQ(near.intrinsics.fy_px, 781.0);
   EXPECT_DOUBLE_EQ(near.intrinsics.distortion[2], 3e-4);
   EXPECT_DOUBLE_EQ(near.gamma, 2.2);
-  EXPECT_NEAR(near.mount.pitch_rad, 28.0 * M_PI / 180.0, 1e-15);
+  EXPECT_NEAR(near.mount.pitch_rad, 28.0 * std::numbers::pi / 180.0, 1e-15);
   EXPECT_EQ(near.sheet.sideline, vision::SidelineKind::bumper);
   EXPECT_DOUBLE_EQ(near.ice.paint_depth_m, 0.006);
   EXPECT_DOUBLE_EQ(rig.stone.radius_m, 0.095);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 
 #include "src/config/config_error.hpp"
@@ -34,7 +35,7 @@ TEST(Scenario, another_seed_gives_another_robot_within_the_stated_range) {
 
 TEST(Scenario, angles_arrive_in_radians) {
   const auto s = parse_scenario(practice, "practice.yaml", 1);
-  EXPECT_NEAR(s.robot.pitch_rad_per_mps2, 0.25 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(s.robot.pitch_rad_per_mps2, 0.25 * std::numbers::pi / 180.0, 1e-12);
 }
 
 TEST(Scenario, an_unknown_key_is_refused_with_the_nearest_one) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 
 #include "src/config/config_error.hpp"
@@ -27,14 +28,14 @@ TEST(ThrowerRig, practice_is_read_whole) {
   EXPECT_EQ(rig.drive.right.direction, -1);
   EXPECT_EQ(rig.drive.left.vendor_id, 0x2f1U);
   EXPECT_EQ(rig.gripper.belt.unit, 10);
-  EXPECT_NEAR(rig.thrower.limits.max_yaw_rate_radps, 20.0 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(rig.thrower.limits.max_yaw_rate_radps, 20.0 * std::numbers::pi / 180.0, 1e-12);
 }
 
 TEST(ThrowerRig, the_cameras_rotation_follows_its_mount) {
   const ThrowerRig rig = parse_thrower_rig(practice, "practice.yaml");
   // The body's forward axis lies above the optical axis of a camera that looks down: image y is negative.
-  EXPECT_NEAR(rig.thrower.alignment.near_cRb[3], -std::sin(28.0 * M_PI / 180.0), 1e-12);
-  EXPECT_NEAR(rig.thrower.alignment.near_cRb[6], std::cos(28.0 * M_PI / 180.0), 1e-12);
+  EXPECT_NEAR(rig.thrower.alignment.near_cRb[3], -std::sin(28.0 * std::numbers::pi / 180.0), 1e-12);
+  EXPECT_NEAR(rig.thrower.alignment.near_cRb[6], std::cos(28.0 * std::numbers::pi / 180.0), 1e-12);
 }
 
 TEST(ThrowerRig, a_rig_for_pictures_alone_is_refused_with_the_section_it_lacks) {
