@@ -18,7 +18,6 @@ constexpr int bins = static_cast<int>((rules::max_width_m - rules::min_width_m) 
 constexpr double parallel_cosine = 0.97;
 constexpr int fewest_points = 40;
 constexpr std::size_t most_voters = 2500;
-constexpr double peak_share = 0.9;  // of the most votes: what lies above is as good
 
 /// An edge point that may lie on a sideline or on a ring, in e's axes about the body but not yet moved there.
 struct Voter {
@@ -150,6 +149,8 @@ std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, cons
   const auto peak = std::max_element(votes.begin(), votes.end());
   const auto best = static_cast<std::size_t>(peak - votes.begin());
   if (scores[best].sum() < fewest_points) return std::nullopt;
+  // Counts spread by their root: leans with so few votes less are as good.
+  const double peak_share = 1.0 - 1.0 / std::sqrt(scores[best].sum());
   const auto high = std::count_if(votes.begin(), votes.end(), [&](double v) { return v > peak_share * *peak; });
   return LeanVote{.lean_rad = (static_cast<double>(best) - lean_steps) * lean_step_rad,
                   .sigma_rad = lean_step_rad * (0.5 + 0.5 * static_cast<double>(high)),
