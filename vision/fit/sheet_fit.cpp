@@ -429,6 +429,10 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
     if (!move_by(step.change)) return refuse("the fit ran away");
     if (sidelines_borne_out()) break;
   }
+  // What still does not fit is somebody else's line: it must not move the camera.
+  if (!sidelines_borne_out()) {
+    for (Sideline& line : state.sidelines) line.moves_camera = false;
+  }
 
   refine(light, start, 12.0, 1.5, 2);
   if (!move_by(step.change)) return refuse("the fit ran away");
