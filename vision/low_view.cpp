@@ -25,6 +25,7 @@ constexpr std::size_t most_tries = 3;
 constexpr double search_px = 10.0;
 constexpr int fewest_sideline_points = 40;
 constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
+constexpr double most_sigma_m = 0.3;          // far off, without sidelines, the body's rocking leaves as much
 constexpr double least_error_m = 0.0005;
 constexpr double roll_sigma_rad = 0.0017;
 constexpr double height_sigma_m = 0.003;
@@ -36,6 +37,16 @@ struct Start {
   double lean_rad = 0.0;  ///< how much more the camera looks down than its mount says
   double lean_sigma_rad = vision::lean_sigma_rad;
 };
+
+// Edges that may run down-ice; rings, logos and lines across give most of the others.
+std::vector<EdgePoint> down_ice_points(const std::vector<EdgePoint>& points) {
+  constexpr double least_cosine = 0.85;
+  std::vector<EdgePoint> some;
+  for (const EdgePoint& p : points) {
+    if (std::abs(p.ground_normal.x()) > least_cosine) some.push_back(p);
+  }
+  return some;
+}
 
 }  // namespace
 
@@ -79,7 +90,7 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   if (hog_lines.empty()) return nothing;
 
   const auto points = find_edge_points(image, impl_->view, {.range_m = range_m});
-  const auto lines = find_line_candidates(points, impl_->view.pixels_per_plane_unit(), most_lines);
+  const auto lines = find_line_candidates(down_ice_points(points), impl_->view.pixels_per_plane_unit(), most_lines);
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
 
@@ -146,6 +157,7 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   fit_start.eMc = eMb(start.body) * bMc(mount);
   fit_start.search_px = search_px;
   fit_start.sheet_width_m = start.width_m;
+  fit_start.most_sigma_m = most_sigma_m;
   fit_start.pitch_offset_rad = start.lean_rad;
   fit_start.pitch_sigma_rad = start.lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;

@@ -262,7 +262,7 @@ std::vector<CrossCandidate> find_cross_candidates(const std::vector<HogRidge>& r
   search.vote();
   std::vector<CrossCandidate> found;
   int refused = 0;
-  for (Line line : search.peaks(8 * most)) {
+  for (Line line : search.peaks(4 * most)) {
     if (found.size() >= most || !search.refine(line)) continue;
     const CrossCandidate c = search.describe(line);
     if (c.distance_m < range.min_distance_m || c.distance_m > range.max_distance_m) continue;

@@ -18,7 +18,6 @@ constexpr double rough_search_px = 10.0;  // a start that needs a wider search m
 constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
 
 // Limits beyond which an estimate tells nothing: the fit is then "not determined".
-constexpr double most_sigma_m = 0.25;
 constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
 constexpr double most_residual_px = 1.5;
 constexpr float least_colour_agreement = 0.8F;  // cosine
@@ -408,9 +407,9 @@ void SheetFit::Impl::judge(const SheetFitStart& start) {
     refuse("most of the paint is not where the fit puts it");
   } else if (result.residual_px > most_residual_px) {
     refuse("what was found does not fit a sheet");
-  } else if (!(result.sigma.y_m < most_sigma_m)) {
+  } else if (!(result.sigma.y_m < start.most_sigma_m)) {
     refuse("nothing in view tells the distance along the sheet");
-  } else if (!(result.sigma.x_m < most_sigma_m) || !(result.sigma.yaw_rad < most_sigma_yaw_rad)) {
+  } else if (!(result.sigma.x_m < start.most_sigma_m) || !(result.sigma.yaw_rad < most_sigma_yaw_rad)) {
     refuse("nothing in view tells the place across the sheet or the direction");
   } else {
     result.ok = true;

@@ -23,6 +23,7 @@ struct SheetFitStart {
   double pitch_sigma_rad = 0.0;         ///< weak prior on the mount's pitch, 0 for none
   double pitch_offset_rad = 0.0;        ///< the prior's middle, from the mount's pitch; positive looks down more
   double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
+  double most_sigma_m = 0.25;           ///< a place across or along the sheet less sure than this is none
   double travel_m = 0.0;                ///< of the camera along y during the exposure: motion blur to expect
   double paint_depth_sigma_m = 0.0;     ///< prior on the setup's paint depth; 0: taken as given, else estimated too
 };
