@@ -31,7 +31,7 @@ void inject(FaultKind kind, SimulatedRobot& robot) {
   hw::sim::Rink& rink = robot.rink();
   switch (kind) {
     case FaultKind::drive_heartbeat: rink.left_drive().communication().faults.heartbeat_stopped = true; break;
-    case FaultKind::drive_dies: rink.left_drive().kill(hw::sim::AxisPower::unpowered); break;
+    case FaultKind::drive_dies: rink.left_drive().kill(hw::sim::AxisPower::braked); break;  // its spring-applied brake falls in
     case FaultKind::camera_freeze: robot.low_camera().inject(RenderedCamera::Fault::frozen); break;
     case FaultKind::camera_stops: robot.low_camera().inject(RenderedCamera::Fault::stopped); break;
     case FaultKind::camera_black: robot.low_camera().inject(RenderedCamera::Fault::black); break;

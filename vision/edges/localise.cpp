@@ -139,6 +139,7 @@ Fit linearise(const std::array<float, Profile::max_samples>& light, const Profil
   return {p, gram.cast<double>(), static_cast<double>(residual2)};
 }
 
+constexpr double significant = 4.5;  // sigmas of the contrast
 constexpr double least_blur_px = 0.35;
 constexpr double most_blur_px = 12.0;
 
@@ -208,14 +209,17 @@ LocalEdge locate(const Profile& profile, const EdgeExpectation& expected) {
 
   const int freedom = std::max(1, window.size() - (bar ? 5 : 4));
   const double noise = std::sqrt(fit.residual2 / freedom);
-  const Matrix inverse = (fit.normal + 1e-12 * Matrix::Identity()).ldlt().solve(Matrix::Identity());
+  // Samples closer than a pixel share their pixels' noise.
+  const double shared = 1.0 / std::min(profile.step_px, 1.0);
+  const Matrix regular = fit.normal + 1e-12 * Matrix::Identity();
+  const Matrix inverse = shared * regular.ldlt().solve(Matrix::Identity());
   edge.offset_px = fit.p[3];
   edge.contrast = fit.p[2];
   edge.blur_px = fit.p[4];
   edge.sigma_px = noise * std::sqrt(std::max(0.0, inverse(3, 3)));
   if (!std::isfinite(edge.offset_px) || !std::isfinite(edge.sigma_px)) return failed(EdgeFault::no_contrast);
   if (std::abs(edge.offset_px - expected.offset_px) > expected.max_shift_px) return failed(EdgeFault::left_window);
-  if (!(edge.contrast > 4.0 * noise * std::sqrt(std::max(0.0, inverse(2, 2))) && edge.contrast > 0.006)) {
+  if (!(edge.contrast > significant * noise * std::sqrt(std::max(0.0, inverse(2, 2))) && edge.contrast > 0.006)) {
     return failed(EdgeFault::no_contrast);
   }
   if (noise > 0.5 * edge.contrast) return failed(EdgeFault::not_like_that);

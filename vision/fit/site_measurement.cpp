@@ -27,7 +27,9 @@ SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site,
   const double after = window_px(site, site.after_px);
   const double half = 0.5 * site.width_px;
   const int breadth = std::min(half_breadth, most_breadth(site));
-  const Cut cut{site.pixel, site.normal, -half - before - search_px, half + after + search_px, 0.75, breadth};
+  // Measured: steps of 0.75 px beat with the pixels and leave 0.015 px of bias, steps of half a pixel 0.001.
+  const double step_px = half_breadth > 1 ? 0.5 : 0.75;
+  const Cut cut{site.pixel, site.normal, -half - before - search_px, half + after + search_px, step_px, breadth};
   if (!sample(light.picture, light.response, cut, profile)) return m;
 
   EdgeExpectation expected{0.0, site.width_px, site.blur_px, before, after, search_px};

@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"wrong unit", with("fx_px: 780.0", "fx_mm: 4.0"), "cameras.near.fx_mm", "did you mean fx_px?"},
         Refusal{"wrong unit of an angle", with("pitch_deg", "pitch_rad"), "cameras.near.mount.pitch_rad",
                 "did you mean pitch_deg?"},
-        Refusal{"unknown section", good + "colour: {red: 1}\n", "colour", "allowed here: cameras"},
+        Refusal{"unknown section", good + "colour: {red: 1}\n", "colour", "allowed here: ages, arm"},
         Refusal{"missing key", with("    gamma: 2.2\n", ""), "cameras.near.gamma",
                 "missing; must be a number from 0.2 to 5.0"},
         Refusal{"missing section", with("ice: {paint_depth_m: 0.006, refractive_index: 1.309}\n", ""), "ice",
