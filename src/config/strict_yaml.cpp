@@ -80,6 +80,10 @@ class Reader {
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const char* end = text.data() + text.size();
     long long integer = 0;
+    if (text.starts_with("0x")) {
+      const auto r = std::from_chars(begin + 2, end, integer, 16);
+      return r.ec == std::errc{} && r.ptr == end ? std::optional<json>(integer) : std::nullopt;
+    }
     if (const auto r = std::from_chars(begin, end, integer); r.ec == std::errc{} && r.ptr == end) return integer;
     double real = 0.0;
     const auto r = std::from_chars(begin, end, real);

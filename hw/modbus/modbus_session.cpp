@@ -1,0 +1,42 @@
+#include "hw/modbus/modbus_session.hpp"
+
+namespace hogline::hw {
+
+ModbusSession::ModbusSession(const ModbusSessionConfig& config)
+    : transport_(config.line), reconnect_delay_(config.reconnect_delay) {}
+
+std::optional<ModbusFault> ModbusSession::ensure_open(Stamp now) {
+  if (transport_.is_open()) return std::nullopt;
+  if (retry_at_ && now < *retry_at_) return last_fault_;
+  if (auto fault = transport_.open()) return judged(fault, now);
+  ++connections_;
+  retry_at_.reset();
+  return std::nullopt;
+}
+
+std::optional<ModbusFault> ModbusSession::judged(std::optional<ModbusFault> fault, Stamp now) {
+  const bool answered =
+      !fault || fault->kind == DeviceErrorKind::refused || fault->kind == DeviceErrorKind::device_fault;
+  if (!answered) {
+    transport_.close();
+    last_fault_ = *fault;
+    retry_at_ = now + reconnect_delay_;
+  }
+  return fault;
+}
+
+std::optional<ModbusFault> ModbusSession::read_input(int unit, int address, std::span<std::uint16_t> values,
+                                                     Stamp now) {
+  if (auto fault = ensure_open(now)) return fault;
+  ++exchanges_;
+  return judged(transport_.read_input(unit, address, values), now);
+}
+
+std::optional<ModbusFault> ModbusSession::write(int unit, int address, std::span<const std::uint16_t> values,
+                                                Stamp now) {
+  if (auto fault = ensure_open(now)) return fault;
+  ++exchanges_;
+  return judged(transport_.write(unit, address, values), now);
+}
+
+}  // namespace hogline::hw

@@ -1,0 +1,52 @@
+// The simulated jaws, spin belt and folding arm behind one Modbus TCP server.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+#include "hw/sim/axis_device.hpp"
+#include "hw/sim/jaws_device.hpp"
+#include "hw/sim/modbus_server.hpp"
+
+namespace hogline::hw::sim {
+
+/// The devices move only in step(): a client that makes its exchanges between two steps meets the same devices in every
+/// run. Units 9 (jaws), 10 (belt), 11 (arm).
+class ModbusDevices {
+ public:
+  ModbusDevices(const GripperScenario& gripper, const SpinBeltScenario& belt, const ArmScenario& arm,
+                std::uint64_t seed, Stamp start);
+
+  int port() const { return server_.port(); }
+  void step(Stamp now);
+
+  /// What the devices do to the world.
+  struct Effects {
+    bool stone_in_jaws = false;
+    std::optional<Stamp> stone_free_at;  ///< may lie in the future: the jaws are opening
+    double belt_radps = 0.0;
+    double arm_unfolded = 0.0;  ///< 0 folded .. 1 unfolded
+  };
+  Effects effects() const;
+
+  /// Fault injection. stop() is a server that dies, stall() one that accepts but never answers.
+  void stop() { server_.stop(); }
+  void restart() { server_.restart(); }
+  void stall() { server_.set_faults({.stalled = true}); }
+  void set_faults(const ModbusServerFaults& faults) { server_.set_faults(faults); }
+  /// Calls change(jaws, belt, arm) while no request is being answered.
+  template <typename Change>
+  void inject(Change&& change) {
+    const std::lock_guard lock(mutex_);
+    change(jaws_, belt_, arm_);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  JawsDevice jaws_;
+  BeltDevice belt_;
+  ArmDevice arm_;
+  ModbusServer server_;  // last: its thread uses the devices
+};
+
+}  // namespace hogline::hw::sim

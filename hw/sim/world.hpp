@@ -1,0 +1,39 @@
+// The robot, and the stone it holds or has let go.
+#pragma once
+
+#include "hw/sim/robot_dynamics.hpp"
+#include "hw/sim/scenario.hpp"
+#include "hw/sim/truth.hpp"
+
+namespace hogline::hw::sim {
+
+/// What the devices do to the world.
+struct WorldInputs {
+  AxisSpeeds axes;
+  double belt_radps = 0.0;             ///< of the held stone, in the body
+  std::optional<Stamp> stone_free_at;  ///< when the jaws let the stone go; may lie in the future
+  double arm_unfolded = 0.0;
+};
+
+/// Steps of at most a millisecond; the step in which the stone becomes free is cut at that moment. Touching the stone
+/// afterwards is recorded; the push itself is not simulated.
+class World {
+ public:
+  World(const Scenario& scenario, Stamp start);
+
+  /// Moves the world from where it is to `until`.
+  void step(const WorldInputs& inputs, Stamp until);
+  const Truth& truth() const { return truth_; }
+
+ private:
+  void substep(const WorldInputs& inputs, Duration span);
+  void release();
+  void carry(double belt_radps);
+  void detect_touch();
+
+  StoneScenario stone_;
+  RobotDynamics robot_;
+  Truth truth_;
+};
+
+}  // namespace hogline::hw::sim

@@ -1,0 +1,233 @@
+#include "src/config/thrower_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/config/config_error.hpp"
+#include "src/config/schema.hpp"
+#include "src/config/section.hpp"
+#include "src/config/strict_yaml.hpp"
+#include "vision/geometry/pose.hpp"
+
+namespace hogline::config {
+namespace {
+
+using nlohmann::json;
+
+constexpr double hour_s = 3600.0;
+
+servo::MotionLimits read_limits(const Section& s) {
+  return {.max_speed_mps = s.number("max_speed_mps"),
+          .max_acceleration_mps2 = s.number("max_acceleration_mps2"),
+          .max_jerk_mps3 = s.number("max_jerk_mps3"),
+          .max_deceleration_mps2 = s.number("max_deceleration_mps2"),
+          .max_yaw_rate_radps = s.radians("max_yaw_rate_degps"),
+          .max_yaw_acceleration_radps2 = s.radians("max_yaw_acceleration_degps2")};
+}
+
+servo::AgeLimits read_ages(const Section& s) {
+  return {.wheels = s.duration("wheels_s"),
+          .gyro = s.duration("gyro_s"),
+          .gripper = s.duration("gripper_s"),
+          .arm = s.duration("arm_s"),
+          .near_view = s.duration("near_view_s"),
+          .low_view = s.duration("low_view_s")};
+}
+
+servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& near_mount) {
+  servo::AlignmentConfig a;
+  const Eigen::Matrix3d cRb = vision::bMc(near_mount).linear().transpose();
+  for (int i = 0; i < 9; ++i) a.near_cRb[static_cast<std::size_t>(i)] = cRb(i / 3, i % 3);
+  a.gain_at_zero_per_s = s.number("gain_at_zero_per_s");
+  a.gain_at_infinity_per_s = s.number("gain_at_infinity_per_s");
+  a.gain_slope_per_s_rad = s.number("gain_slope_per_s_deg") / (std::numbers::pi / 180.0);
+  a.tolerance_rad = s.radians("tolerance_deg");
+  a.rate_tolerance_radps = s.radians("rate_tolerance_degps");
+  a.settle_time = s.duration("settle_time_s");
+  a.breakaway_yaw_rate_radps = s.radians("breakaway_yaw_rate_degps");
+  a.stopping_lag_s = s.number("stopping_lag_s");
+  return a;
+}
+
+servo::RunConfig read_run(const Section& s) {
+  return {.hold_distance_m = s.number("hold_distance_m"),
+          .heading_gain_per_s = s.number("heading_gain_per_s"),
+          .lateral_length_m = s.number("lateral_length_m"),
+          .max_lateral_heading_rad = s.radians("max_lateral_heading_deg"),
+          .speed_tolerance_mps = s.number("speed_tolerance_mps"),
+          .heading_tolerance_rad = s.radians("heading_tolerance_deg"),
+          .lateral_tolerance_m = s.number("lateral_tolerance_m"),
+          .spin_tolerance_radps = s.number("spin_tolerance_radps")};
+}
+
+servo::Deadlines read_deadlines(const Section& s) {
+  return {.unfold = s.duration("unfold_s"),
+          .measure = s.duration("measure_s"),
+          .align = s.duration("align_s"),
+          .fold = s.duration("fold_s"),
+          .run = s.duration("run_s"),
+          .release = s.duration("release_s"),
+          .brake = s.duration("brake_s")};
+}
+
+servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near_mount) {
+  const Section t = root.section("thrower");
+  const Section release = root.section("release");
+  servo::ThrowerConfig c;
+  c.base = {.wheel_radius_m = root.section("base").number("wheel_radius_m"),
+            .track_m = root.section("base").number("track_m")};
+  c.limits = read_limits(root.section("limits"));
+  c.release = {.hog_distance_m = release.number("hog_distance_m"),
+               .tolerance_m = release.number("tolerance_m"),
+               .stone_x_m = release.number("stone_x_m"),
+               .gripper_delay_s = release.number("gripper_delay_s")};
+  c.ages = read_ages(root.section("ages"));
+  c.measure = {.frames = t.section("measure").integer("frames"), .rest = t.section("measure").duration("rest_s")};
+  c.alignment = read_alignment(t.section("alignment"), near_mount);
+  const Section gyro = t.section("gyro");
+  c.gyro = {.noise_rad_per_sqrt_s = gyro.radians("noise_deg_per_sqrt_h") / std::sqrt(hour_s),
+            .bias_sigma_radps = gyro.radians("bias_sigma_deg_per_h") / hour_s,
+            .bias_drift_radps_per_sqrt_s = gyro.radians("bias_drift_deg_per_h_per_sqrt_s") / hour_s};
+  const Section odometry = t.section("odometry");
+  c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
+                .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),
+                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m")};
+  c.run = read_run(t.section("run"));
+  const Section safety = t.section("safety");
+  c.safety = {.max_yaw_rate_disagreement_radps = safety.radians("max_yaw_rate_disagreement_degps"),
+              .disagreement_time = safety.duration("disagreement_time_s"),
+              .reaction_s = safety.number("reaction_s")};
+  c.deadlines = read_deadlines(t.section("deadlines"));
+  return c;
+}
+
+hw::WheelConfig read_wheel(const Section& s, const std::string& name) {
+  hw::WheelConfig w;
+  w.name = name;
+  w.node = static_cast<std::uint8_t>(s.integer("node"));
+  w.vendor_id = s.raw("vendor_id").get<std::uint32_t>();
+  w.product_code = s.raw("product_code").get<std::uint32_t>();
+  w.direction = s.integer("direction");
+  w.gear_ratio = s.number("gear_ratio");
+  w.position_counts_per_motor_rev = s.number("position_counts_per_motor_rev");
+  w.velocity_units_per_motor_rps = s.number("velocity_units_per_motor_rps");
+  w.acceleration_units_per_motor_rps2 = s.number("acceleration_units_per_motor_rps2");
+  w.max_speed_radps = s.number("max_speed_radps");
+  w.quick_stop_radps2 = s.number("quick_stop_radps2");
+  return w;
+}
+
+hw::DriveTiming read_timing(const Section& s) {
+  return {.control_period = s.duration("control_period_s"),
+          .command_age_limit = s.duration("command_age_limit_s"),
+          .feedback_timeout = s.duration("feedback_timeout_s"),
+          .rpdo_timeout = s.duration("rpdo_timeout_s"),
+          .heartbeat_period = s.duration("heartbeat_period_s"),
+          .heartbeat_timeout = s.duration("heartbeat_timeout_s"),
+          .sdo_timeout = s.duration("sdo_timeout_s"),
+          .boot_timeout = s.duration("boot_timeout_s"),
+          .state_timeout = s.duration("state_timeout_s"),
+          .quick_stop_timeout = s.duration("quick_stop_timeout_s"),
+          .stop_margin = s.duration("stop_margin_s")};
+}
+
+hw::TwoWheelDriveConfig read_drive(const Section& s, const Document& document) {
+  hw::TwoWheelDriveConfig d;
+  d.left = read_wheel(s.section("left"), "left wheel");
+  d.right = read_wheel(s.section("right"), "right wheel");
+  d.master_node = static_cast<std::uint8_t>(s.integer("master_node"));
+  d.timing = read_timing(s.section("timing"));
+  const Section p = s.section("plausibility");
+  d.plausibility = {.standstill_radps = p.number("standstill_radps"),
+                    .speed_error_radps = p.number("speed_error_radps"),
+                    .speed_error_time = p.duration("speed_error_time_s"),
+                    .position_mismatch_rad = p.number("position_mismatch_rad")};
+  if (const auto error = hw::config_error(d)) {
+    throw ConfigError(document.file, document.line_of("drive"), "drive", "", *error);
+  }
+  return d;
+}
+
+hw::ModbusSessionConfig read_modbus(const Section& s, const Document& document) {
+  if (s.has("tcp") == s.has("rtu")) {
+    throw ConfigError(document.file, document.line_of("modbus"), "modbus", "", "must hold either tcp or rtu");
+  }
+  hw::ModbusSessionConfig m;
+  if (s.has("tcp")) {
+    m.line.line = hw::ModbusTcp{.address = s.section("tcp").word("address"), .port = s.section("tcp").integer("port")};
+  } else {
+    const Section r = s.section("rtu");
+    m.line.line = hw::ModbusRtu{.device = r.word("device"),
+                                .baud = r.integer("baud"),
+                                .parity = r.word("parity").front(),
+                                .data_bits = r.integer("data_bits"),
+                                .stop_bits = r.integer("stop_bits")};
+  }
+  m.line.response_timeout = s.duration("response_timeout_s");
+  m.reconnect_delay = s.duration("reconnect_delay_s");
+  return m;
+}
+
+hw::AxisConfig read_axis(const Section& s) {
+  return {.unit = s.integer("unit"),
+          .poll_period = s.duration("poll_period_s"),
+          .echo_deadline = s.duration("echo_deadline_s"),
+          .silence_limit = s.duration("silence_limit_s")};
+}
+
+hw::ModbusGripperConfig read_gripper(const Section& s) {
+  hw::ModbusGripperConfig g;
+  g.jaws = {.unit = s.integer("unit"),
+            .poll_period = s.duration("poll_period_s"),
+            .echo_deadline = s.duration("echo_deadline_s"),
+            .activation_deadline = s.duration("activation_deadline_s"),
+            .silence_limit = s.duration("silence_limit_s"),
+            .close_speed = static_cast<std::uint8_t>(s.integer("close_speed")),
+            .close_force = static_cast<std::uint8_t>(s.integer("close_force"))};
+  g.belt = read_axis(s.section("belt"));
+  g.max_spin_radps = s.number("max_spin_radps");
+  return g;
+}
+
+void require_sections(const json& root, const Document& document) {
+  for (const char* name : {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm"}) {
+    if (!root.contains(name)) {
+      throw ConfigError(document.file, 0, name, "", "missing; a throw needs this section (see config/rigs/practice.yaml)");
+    }
+  }
+}
+
+// The rules let nobody hold the stone nearer to the line than its radius; the rig file must leave that room.
+void check_release(const servo::ReleaseConfig& r, const Document& document) {
+  const double nearest_m = r.hog_distance_m - r.tolerance_m - r.stone_x_m;
+  if (nearest_m < vision::rules::stone_radius_m) {
+    throw ConfigError(document.file, document.line_of("release"), "release", "",
+                      fmt::format("hog_distance_m - tolerance_m - stone_x_m is {:.3f}; must be at least {} (the stone's "
+                                  "centre must leave the jaws a radius before the hog line)",
+                                  nearest_m, vision::rules::stone_radius_m));
+  }
+}
+
+}  // namespace
+
+ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
+
+ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
+  ThrowerRig rig;
+  rig.rig = parse_rig(text, name);
+  Document document{.file = name, .lines = {}};
+  const json root = read_yaml(text, document);
+  require_sections(root, document);
+  const Section s(root);
+  rig.rig.camera("low");
+  rig.thrower = read_thrower(s, rig.rig.camera("near").mount);
+  check_release(rig.thrower.release, document);
+  rig.drive = read_drive(s.section("drive"), document);
+  rig.modbus = read_modbus(s.section("modbus"), document);
+  rig.gripper = read_gripper(s.section("gripper"));
+  rig.arm = read_axis(s.section("arm"));
+  return rig;
+}
+
+}  // namespace hogline::config

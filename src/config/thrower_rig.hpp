@@ -1,0 +1,31 @@
+// The part of the rig file that the thrower needs: its controller, its drives, its gripper and arm.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hw/canopen/drive_config.hpp"
+#include "hw/modbus/modbus_arm.hpp"
+#include "hw/modbus/modbus_gripper.hpp"
+#include "hw/modbus/modbus_session.hpp"
+#include "servo/thrower_config.hpp"
+#include "src/config/rig.hpp"
+
+namespace hogline::config {
+
+struct ThrowerRig {
+  Rig rig;
+  servo::ThrowerConfig thrower;
+  hw::TwoWheelDriveConfig drive;
+  hw::ModbusSessionConfig modbus;
+  hw::ModbusGripperConfig gripper;
+  hw::AxisConfig arm;
+};
+
+/// Reads and checks a rig file with every section that a throw needs. Throws ConfigError.
+ThrowerRig load_thrower_rig(const std::string& path);
+
+/// The same from text; `name` stands in messages.
+ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name);
+
+}  // namespace hogline::config
