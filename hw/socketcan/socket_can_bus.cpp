@@ -188,10 +188,7 @@ std::optional<StampedCanFrame> SocketCanBus::receive() {
       continue;
     }
     tell_tap(message->frame, message->wall, CanDirection::received, false);
-    if (matches_any(config_.own, message->frame)) {
-      ++state_.counters.foreign;
-      continue;
-    }
+    if (matches_any(config_.own, message->frame)) ++state_.counters.foreign;
     ++state_.counters.received;
     return StampedCanFrame{message->frame, stamp_of(*message)};
   }

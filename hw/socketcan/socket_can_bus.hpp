@@ -17,10 +17,10 @@ namespace hogline::hw {
 struct SocketCanConfig {
   std::string interface = "can0";
   /// What receive() gives. Empty: every classic data frame, remote frames included.
-  std::vector<CanFilter> receive;
+  std::vector<CanFilter> receive{};
   /// Identifiers that only this program may send (RPDOs, SYNC, NMT, SDO requests). Needed beside `receive` so that the
-  /// kernel confirms them; the same frames from anybody else are counted as foreign and not given to receive().
-  std::vector<CanFilter> own;
+  /// kernel confirms them. The same frames from anybody else are counted as foreign, and receive() gives them too.
+  std::vector<CanFilter> own{};
   Duration reopen_period = std::chrono::milliseconds(100);    ///< between two attempts to find the interface
   Duration confirm_deadline = std::chrono::milliseconds(50);  ///< a frame not seen on the bus by then is unconfirmed
 };
