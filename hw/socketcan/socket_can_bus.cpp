@@ -59,9 +59,6 @@ void SocketCanBus::step(Stamp now) {
   on_socket_error(frames_->pending_error());
   take_error_frames();
   watch_link();
-
-  state_.counters.unconfirmed += sent_.expire(now - config_.confirm_deadline);
-  state_.unconfirmed_since = sent_.oldest();
 }
 
 void SocketCanBus::open(Stamp now) {
@@ -180,6 +177,7 @@ std::optional<StampedCanFrame> SocketCanBus::receive() {
     const auto [message, error] = frames_->receive();
     if (!message) {
       on_socket_error(error);
+      expire_unconfirmed();
       return std::nullopt;
     }
     count_drops(*message);
@@ -199,6 +197,12 @@ void SocketCanBus::on_own_frame(const CanMessage& message) {
   if (sent_.confirm(message.frame)) ++state_.counters.confirmed;
   state_.unconfirmed_since = sent_.oldest();
   tell_tap(message.frame, message.wall, CanDirection::transmitted, false);
+}
+
+// Only when everything that came was read: confirmations that waited while the program did are not late.
+void SocketCanBus::expire_unconfirmed() {
+  state_.counters.unconfirmed += sent_.expire(now_ - config_.confirm_deadline);
+  state_.unconfirmed_since = sent_.oldest();
 }
 
 // The kernel counts from the socket's opening, in 32 bits that wrap.

@@ -87,6 +87,7 @@ class SocketCanBus final : public CanBus {
   void on_error_frame(const CanErrorFrame& error);
   void on_socket_error(int error);
   void on_own_frame(const CanMessage& message);
+  void expire_unconfirmed();
   void count_drops(const CanMessage& message);
   Stamp stamp_of(const CanMessage& message);
   void tell_tap(const CanFrame& frame, Duration wall, CanDirection direction, bool error_frame);

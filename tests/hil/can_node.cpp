@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace hogline::hil {
 
@@ -31,8 +32,11 @@ CanNode::CanNode(const std::string& interface) {
 CanNode::~CanNode() { close(fd_); }
 
 void CanNode::write(const void* frame, std::size_t size) {
+  bool may_have_been_down = true;  // of which the socket tells once, even if it is up again
   while (::write(fd_, frame, size) != static_cast<ssize_t>(size)) {
-    if (errno != EAGAIN && errno != ENOBUFS) throw std::system_error(errno, std::generic_category(), "write to CAN");
+    const bool later =
+        errno == EAGAIN || errno == ENOBUFS || (errno == ENETDOWN && std::exchange(may_have_been_down, false));
+    if (!later) throw std::system_error(errno, std::generic_category(), "write to CAN");
     pollfd room{fd_, POLLOUT, 0};
     poll(&room, 1, 10);
   }
@@ -61,6 +65,16 @@ std::optional<can_frame> CanNode::hear() {
     size = read(fd_, &frame, sizeof frame);
   } while (size < 0 && errno == ENETDOWN);  // told once after each time that the link was down
   return size == sizeof frame ? std::optional(frame) : std::nullopt;
+}
+
+std::vector<can_frame> CanNode::hear(std::size_t count) {
+  std::vector<can_frame> heard;
+  for (int patience = 2000; heard.size() < count && patience > 0; --patience) {
+    pollfd news{fd_, POLLIN, 0};
+    poll(&news, 1, 10);
+    while (const auto frame = hear()) heard.push_back(*frame);
+  }
+  return heard;
 }
 
 std::vector<can_frame> CanNode::hear_all() {

@@ -26,6 +26,8 @@ class CanNode {
   /// What has arrived and was not heard yet; does not wait.
   std::optional<can_frame> hear();
   std::vector<can_frame> hear_all();
+  /// Waits until this many frames have arrived, or 20 s; gives all of them, more if there are more.
+  std::vector<can_frame> hear(std::size_t count);
 
  private:
   void write(const void* frame, std::size_t size);

@@ -90,7 +90,8 @@ TEST_F(DisturbedBus, AFullBusSaysSoAfterAFewFramesAndForgetsTheRest) {
 
   calm();  // drops what the queue held
   ASSERT_TRUE(run_until(bus, [&] { return bus.send(numbered(251)) == CanSendResult::sent; }));
-  const auto heard = node.hear_all();
+  const auto heard = node.hear(5);  // the four that had passed and the last
+  EXPECT_EQ(heard.back().data[0], 251);
   EXPECT_TRUE(std::none_of(heard.begin(), heard.end(), [](const can_frame& f) { return f.data[0] == 250; }));
 }
 
@@ -102,21 +103,52 @@ TEST_F(DisturbedBus, AQueueWithoutRoomIsToldAndNotAnError) {
   EXPECT_TRUE(bus.up());
 }
 
-TEST_F(DisturbedBus, CommandsStuckInTheKernelDoNotSurviveALinkThatGoesDown) {
-  SocketCanBus bus = running_bus({.confirm_deadline = 60s});
-  CanNode node(name_);
-  disturb("netem delay 300ms");
-  for (std::uint8_t i = 0; i < 4; ++i) ASSERT_EQ(bus.send(numbered(i)), CanSendResult::sent);
-  run("ip link set " + name_ + " down");
-  period(bus);
-  EXPECT_EQ(bus.state().counters.unconfirmed, 4U);
-  run("ip link set " + name_ + " up");
-  ASSERT_TRUE(run_until(bus, [&] { return bus.up(); }));
-  ASSERT_EQ(bus.send(numbered(99)), CanSendResult::sent);
-  ASSERT_TRUE(run_until(bus, [&] { return bus.state().counters.confirmed == 1; }));
-  const auto heard = node.hear_all();
-  ASSERT_EQ(heard.size(), 1U);
-  EXPECT_EQ(heard[0].data[0], 99);
+// How commands get stuck: the bus takes none (nobody acknowledges), and later all of them.
+class StuckBus : public DisturbedBus {
+ protected:
+  // Lets four frames of 16 bytes pass, and then one in 16 s.
+  void stick() const { disturb("tbf rate 8bit burst 72 limit 1mb"); }
+  void come_loose() const { run("tc qdisc change dev " + name_ + " root tbf rate 10mbit burst 1mb limit 1mb"); }
+
+  // Commands until the bus takes no more, then one with the number 99 after `meanwhile`: all that was heard from then
+  // on.
+  std::vector<int> heard_after(const std::function<void(SocketCanBus&)>& meanwhile) {
+    stick();
+    SocketCanBus bus = running_bus({.confirm_deadline = 60s});
+    CanNode node(name_);
+    for (std::uint8_t i = 1; bus.send(numbered(i)) == CanSendResult::sent;) ++i;
+    EXPECT_EQ(node.hear(4).size(), 4U);
+    meanwhile(bus);
+    come_loose();
+    node.send(0x7FF);  // the kernel looks at its queue when somebody sends
+    EXPECT_TRUE(run_until(bus, [&] { return bus.send(numbered(99)) == CanSendResult::sent; }));
+    std::vector<int> numbers;
+    EXPECT_TRUE(wait_until([&] {
+      for (const can_frame& frame : node.hear_all()) numbers.push_back(frame.data[0]);
+      return !numbers.empty() && numbers.back() == 99;
+    }));
+    return numbers;
+  }
+};
+
+TEST_F(StuckBus, CommandsInTheKernelDoNotSurviveALinkThatGoesDown) {
+  const auto numbers = heard_after([&](SocketCanBus& bus) {
+    run("ip link set " + name_ + " down");
+    period(bus);
+    EXPECT_FALSE(bus.up());
+    EXPECT_GT(bus.state().counters.unconfirmed, 0U);
+    run("ip link set " + name_ + " up");
+    EXPECT_TRUE(run_until(bus, [&] { return bus.up(); }));
+  });
+  EXPECT_EQ(numbers, std::vector<int>{99});
+}
+
+// The limit of what a program can do: it can not take back what the kernel has accepted. doc/socketcan.md tells what
+// bounds the harm. If this test fails because fewer come out, the limit has gone: say so there.
+TEST_F(StuckBus, WithoutAnOutageAFewOldCommandsComeOut) {
+  const auto numbers = heard_after([](SocketCanBus& bus) { EXPECT_TRUE(bus.up()); });
+  EXPECT_GT(numbers.size(), 1U);
+  EXPECT_LE(numbers.size(), 1U + 8U);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST_F(Outage, LinkDownRefusesCommandsAndTheSameBusGoesOnAfterUp) {
   ASSERT_TRUE(run_until(bus, [&] { return bus.up(); }));
   EXPECT_FALSE(bus.error());
   EXPECT_EQ(bus.send(fresh), CanSendResult::sent);
-  const auto heard = node.hear_all();
+  const auto heard = node.hear(1);
   ASSERT_EQ(heard.size(), 1U);
   EXPECT_EQ(heard[0].data[0], 0xFE);
   EXPECT_EQ(bus.state().counters.outages, 1U);
@@ -73,7 +73,7 @@ TEST_F(Outage, AnAdapterThatIsUnpluggedIsFoundAgainByItsName) {
   EXPECT_EQ(bus.send(fresh), CanSendResult::sent);
   node.send(0x185, {1});
   EXPECT_EQ(receive(bus, 1).size(), 1U);
-  EXPECT_EQ(node.hear_all().size(), 1U) << "only the fresh command";
+  EXPECT_EQ(node.hear(1).size(), 1U) << "only the fresh command";
 }
 
 TEST_F(Outage, AnAdapterThatWasReplacedBetweenTwoPeriodsIsOpenedAnew) {
@@ -85,7 +85,7 @@ TEST_F(Outage, AnAdapterThatWasReplacedBetweenTwoPeriodsIsOpenedAnew) {
   ASSERT_TRUE(run_until(bus, [&] { return bus.up(); }));
   CanNode node(name_);
   EXPECT_EQ(bus.send(fresh), CanSendResult::sent);
-  EXPECT_EQ(node.hear_all().size(), 1U);
+  EXPECT_EQ(node.hear(1).size(), 1U);
 }
 
 TEST_F(Outage, TheInterfaceMayComeLaterThanTheProgram) {

@@ -23,7 +23,7 @@ TEST_F(Traffic, BytesGoOutAndComeInAsTheyAre) {
   const CanFrame extended{.id = 0x18FF0001, .extended = true, .length = 1, .data = {0xA5}};
   const CanFrame remote{.id = 0x705, .remote = true};
   for (const CanFrame& frame : {command, extended, remote}) ASSERT_EQ(bus.send(frame), CanSendResult::sent);
-  const auto heard = node.hear_all();
+  const auto heard = node.hear(3);
   ASSERT_EQ(heard.size(), 3U);
   EXPECT_EQ(heard[0].can_id, 0x605U);
   EXPECT_TRUE(std::equal(command.data.begin(), command.data.end(), heard[0].data));
