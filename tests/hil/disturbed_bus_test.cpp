@@ -22,7 +22,7 @@ CanFrame numbered(std::uint8_t number) { return {.id = 0x205, .length = 1, .data
 
 TEST_F(DisturbedBus, LostFramesAreToldByTheirMissingConfirmation) {
   disturb("netem loss 30%");
-  SocketCanBus bus = running_bus();
+  SocketCanBus bus = running_bus({.confirm_deadline = 2s});
   CanNode node(name_);
   std::size_t heard = 0;
   for (int i = 0; i < 400; ++i) {

@@ -36,8 +36,8 @@ class VcanTest : public testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  /// An adapter on it that is up.
-  hw::SocketCanBus running_bus(hw::SocketCanConfig config = {}) const;
+  /// An adapter on it that is up. A busy machine may bring a confirmation late: tests of lost frames set a deadline.
+  hw::SocketCanBus running_bus(hw::SocketCanConfig config = {.confirm_deadline = generous}) const;
 
   const std::string name_ = "vtest";
 };

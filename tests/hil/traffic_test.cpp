@@ -68,7 +68,7 @@ TEST_F(Traffic, FiltersLetOnlyTheirOwnKindPass) {
 }
 
 TEST_F(Traffic, ASecondMasterIsCounted) {
-  SocketCanBus bus = running_bus({.receive = {{0x185}}, .own = {{0x205}}});
+  SocketCanBus bus = running_bus({.receive = {{0x185}}, .own = {{0x205}}, .confirm_deadline = generous});
   ASSERT_EQ(bus.send({.id = 0x205, .length = 2, .data = {0x0F, 0x00}}), CanSendResult::sent);
   EXPECT_TRUE(run_until(bus, [&] { return bus.state().counters.confirmed == 1; })) << "confirmed through `own`";
   EXPECT_EQ(bus.state().counters.foreign, 0U);
