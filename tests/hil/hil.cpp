@@ -9,8 +9,8 @@ namespace hogline::hil {
 
 Stamp now() { return std::chrono::steady_clock::now(); }
 
-bool wait_until(const std::function<bool()>& done, Duration limit) {
-  for (const Stamp end = now() + limit; now() < end; poll(nullptr, 0, 1)) {
+bool wait_until(const std::function<bool()>& done, Duration limit, std::chrono::milliseconds rhythm) {
+  for (const Stamp end = now() + limit; now() < end; poll(nullptr, 0, static_cast<int>(rhythm.count()))) {
     if (done()) return true;
   }
   return done();

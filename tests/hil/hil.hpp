@@ -18,8 +18,9 @@ inline constexpr Duration generous = std::chrono::seconds(20);
 
 Stamp now();
 
-/// Calls `done` every millisecond until it holds; false after `limit`.
-bool wait_until(const std::function<bool()>& done, Duration limit = generous);
+/// Calls `done` every `rhythm` until it holds; false after `limit`.
+bool wait_until(const std::function<bool()>& done, Duration limit = generous,
+                std::chrono::milliseconds rhythm = std::chrono::milliseconds(1));
 
 /// A control period: step, then read everything.
 std::vector<hw::StampedCanFrame> period(hw::SocketCanBus& bus);

@@ -42,8 +42,10 @@ class PythonNode : public testing::Test {
   void SetUp() override {
     ASSERT_TRUE(started_) << "canopen_node.py never sent its boot-up messages";
     SocketCanBus bus = running_bus();
-    ASSERT_EQ(bus.send(frame("000#8100")), CanSendResult::sent);
-    ASSERT_TRUE(heard(bus, "705#00"));
+    ASSERT_TRUE(wait_until([&] {  // a peer that was overrun may miss one
+      EXPECT_EQ(bus.send(frame("000#8100")), CanSendResult::sent);
+      return heard(bus, "705#00", 5s);
+    }));
   }
 
   static SocketCanBus running_bus(SocketCanConfig config = {}) {
@@ -62,12 +64,13 @@ class PythonNode : public testing::Test {
     return "nothing";
   }
 
-  static bool heard(SocketCanBus& bus, const std::string& expected) {
-    return wait_until([&] {
+  static bool heard(SocketCanBus& bus, const std::string& expected, Duration limit = generous) {
+    const auto came = [&] {
       for (const auto& received : period(bus))
         if (text(received.frame) == expected) return true;
       return false;
-    });
+    };
+    return wait_until(came, limit);
   }
 
  private:
@@ -176,12 +179,14 @@ TwoWheelDriveConfig drive_config() {
 // Control periods with this set-point until `done`.
 bool drive_until(SocketCanBus& bus, TwoWheelDrive& drive, const WheelSpeeds& speeds,
                  const std::function<bool()>& done) {
-  return wait_until([&] {
-           bus.step(now());
-           if (drive.state().phase == DrivePhase::enabled) drive.command(speeds, now());
-           drive.step(now());
-           return done() || (drive.state().error && drive.state().phase == DrivePhase::faulted);
-         }) &&
+  return wait_until(
+             [&] {
+               bus.step(now());
+               if (drive.state().phase == DrivePhase::enabled) drive.command(speeds, now());
+               drive.step(now());
+               return done() || (drive.state().error && drive.state().phase == DrivePhase::faulted);
+             },
+             generous, 5ms) &&
          done();
 }
 

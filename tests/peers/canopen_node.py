@@ -189,7 +189,7 @@ class Node:
         return None
 
     def send(self, cob_id, data):
-        self.bus.send(can.Message(arbitration_id=cob_id, is_extended_id=False, data=data))
+        self.bus.send(can.Message(arbitration_id=cob_id, is_extended_id=False, data=data), timeout=5.0)
 
     def emergency(self, code):
         self.send(0x080 + self.number, struct.pack("<HB5x", code, 0x11))
