@@ -1,6 +1,8 @@
 // The numbers the thrower's controller needs, all from the rig file. No defaults: each is set or the rig is refused.
 #pragma once
 
+#include <array>
+
 #include "vision/percepts/stamp.hpp"
 
 namespace hogline::servo {
@@ -15,7 +17,7 @@ struct MotionLimits {
   double max_speed_mps = 0.0;
   double max_acceleration_mps2 = 0.0;
   double max_jerk_mps3 = 0.0;
-  double max_deceleration_mps2 = 0.0;  ///< after the release
+  double max_deceleration_mps2 = 0.0;  ///< after the release; what a quick stop is sure to reach
   double max_yaw_rate_radps = 0.0;
   double max_yaw_acceleration_radps2 = 0.0;
 };
@@ -38,11 +40,78 @@ struct AgeLimits {
   Duration low_view{};   ///< while the low view is the source of the distance
 };
 
+/// What the robot rests on before it turns.
+struct MeasureConfig {
+  int frames = 0;   ///< near views, seen while the robot stands, that one measurement of its place is made of
+  Duration rest{};  ///< how long the gyro's bias is learnt at rest, at least
+};
+
+/// The turn on the spot. ViSP's adaptive gain: `gain_at_zero` for small errors, `gain_at_infinity` for large ones.
+struct AlignmentConfig {
+  std::array<double, 9> near_cRb{};  ///< near camera's rotation: b-directions to camera directions, row by row
+  double gain_at_zero_per_s = 0.0;
+  double gain_at_infinity_per_s = 0.0;
+  double gain_slope_per_s_rad = 0.0;      ///< how fast the gain falls with the error, at zero
+  double tolerance_rad = 0.0;             ///< settled: heading error below this,
+  double rate_tolerance_radps = 0.0;      ///< rate of turn below this,
+  Duration settle_time{};                 ///< for this long
+  double breakaway_yaw_rate_radps = 0.0;  ///< the slowest ordered turn that is sure to overcome stiction
+  double stopping_lag_s = 0.0;            ///< the body turns on for about this long after a turn is no longer ordered
+};
+
+struct GyroConfig {
+  double noise_rad_per_sqrt_s = 0.0;  ///< angle random walk
+  double bias_sigma_radps = 0.0;      ///< what the bias may be before it is learnt
+  double bias_drift_radps_per_sqrt_s = 0.0;
+};
+
+struct OdometryConfig {
+  double scale_sigma = 0.0;             ///< of true over measured distance, before it is learnt
+  double scale_drift_per_sqrt_m = 0.0;  ///< wear, slip that changes with the acceleration
+  double noise_m_per_sqrt_m = 0.0;      ///< random walk of the travelled distance
+};
+
+/// The run to the release plane, and when a release is still worth it.
+struct RunConfig {
+  double hold_distance_m = 0.0;  ///< the shot's speed is reached at least this far before the release plane
+  double heading_gain_per_s = 0.0;
+  double lateral_length_m = 0.0;         ///< a lateral offset is run down over this length
+  double max_lateral_heading_rad = 0.0;  ///< the heading given up for the offset, at most
+  double speed_tolerance_mps = 0.0;
+  double heading_tolerance_rad = 0.0;
+  double lateral_tolerance_m = 0.0;
+  double spin_tolerance_radps = 0.0;
+};
+
+struct SafetyConfig {
+  double max_yaw_rate_disagreement_radps = 0.0;  ///< between gyro and wheels
+  Duration disagreement_time{};                  ///< how long it may last
+  double reaction_s = 0.0;                       ///< from the decision to brake to full braking
+};
+
+/// How long a state may last. A state that lasts longer aborts the throw.
+struct Deadlines {
+  Duration unfold{};
+  Duration measure{};
+  Duration align{};
+  Duration fold{};
+  Duration run{};
+  Duration release{};  ///< from the release order to the jaws' own report that they open
+  Duration brake{};
+};
+
 struct ThrowerConfig {
   BaseGeometry base;
   MotionLimits limits;
   ReleaseConfig release;
   AgeLimits ages;
+  MeasureConfig measure;
+  AlignmentConfig alignment;
+  GyroConfig gyro;
+  OdometryConfig odometry;
+  RunConfig run;
+  SafetyConfig safety;
+  Deadlines deadlines;
 };
 
 }  // namespace hogline::servo

@@ -5,10 +5,14 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <stdexcept>
 
 #include "hw/files/image_file.hpp"
+#include "hw/files/png_writer.hpp"
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
+#include "src/drawing/picture_overlay.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
 #include "vision/low_sequence.hpp"
@@ -18,25 +22,53 @@
 namespace hogline {
 namespace {
 
-using Estimator = std::function<SheetPosePercept(const cv::Mat&, Stamp)>;
+// Estimates one picture; draws what was seen into `drawing` where that is not null.
+using Estimator = std::function<SheetPosePercept(const cv::Mat& image, Stamp stamp, cv::Mat* drawing)>;
 
-Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup) {
-  if (options.camera == "near") {
-    return [view = std::make_shared<vision::NearView>(setup)](const cv::Mat& image, Stamp stamp) {
-      return view->acquire(image, stamp);
-    };
-  }
-  if (options.sequence) {
-    return [view = std::make_shared<vision::LowSequence>(setup)](const cv::Mat& image, Stamp stamp) {
-      return view->step(image, stamp);
-    };
-  }
-  return [view = std::make_shared<vision::LowView>(setup)](const cv::Mat& image, Stamp stamp) {
-    return view->acquire(image, stamp);
+Estimator near_estimator(const vision::CameraSetup& setup) {
+  return [view = std::make_shared<vision::NearView>(setup)](const cv::Mat& image, Stamp stamp, cv::Mat* drawing) {
+    if (drawing == nullptr) return view->acquire(image, stamp);
+    vision::NearViewSketch sketch;
+    const SheetPosePercept percept = view->acquire(image, stamp, &sketch);
+    *drawing = drawing::draw_near_view(image, percept, sketch);
+    return percept;
   };
 }
 
+Estimator low_estimator(const vision::CameraSetup& setup) {
+  return [view = std::make_shared<vision::LowView>(setup)](const cv::Mat& image, Stamp stamp, cv::Mat* drawing) {
+    if (drawing == nullptr) return view->acquire(image, stamp);
+    vision::LowViewSketch sketch;
+    const SheetPosePercept percept = view->acquire(image, stamp, {}, &sketch);
+    *drawing = drawing::draw_low_view(image, percept, sketch);
+    return percept;
+  };
+}
+
+Estimator sequence_estimator(const vision::CameraSetup& setup) {
+  return [view = std::make_shared<vision::LowSequence>(setup)](const cv::Mat& image, Stamp stamp, cv::Mat* drawing) {
+    const SheetPosePercept percept = view->step(image, stamp);
+    if (drawing != nullptr) *drawing = drawing::draw_low_view(image, percept, {});
+    return percept;
+  };
+}
+
+Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup) {
+  if (options.camera == "near") return near_estimator(setup);
+  return options.sequence ? sequence_estimator(setup) : low_estimator(setup);
+}
+
+void save(const std::string& folder, const std::string& image, const cv::Mat& drawing) {
+  const std::filesystem::path name = std::filesystem::path(image).stem();
+  if (const auto problem = hw::files::write_png((std::filesystem::path(folder) / name).string() + ".png", drawing)) {
+    throw std::runtime_error(*problem);
+  }
+}
+
 void check_use(const PoseOptions& options) {
+  if (options.sequence && options.camera != "low") {
+    throw config::ConfigError("command line", 0, "--sequence", "", "goes with --camera low only");
+  }
   if (options.sequence && !(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
                               "must be above 0, at most 1000 frames a second");
@@ -48,10 +80,22 @@ void check_use(const PoseOptions& options) {
   }
 }
 
-cv::Mat read_picture(const std::string& path) {
-  hw::ImageFileResult result = hw::read_image_file(path);
-  if (result.error) throw config::ConfigError(path, 0, "", "", result.error->what);
-  return std::move(result.image);
+// A picture that is none is wrong use; one that another camera took is a picture in which nothing can be estimated.
+hw::files::LoadedImage read_picture(const std::string& path, const vision::Intrinsics& camera) {
+  using hw::files::ImageErrorKind;
+  hw::files::LoadedImage loaded = hw::files::load_image(path, {camera.width_px, camera.height_px});
+  if (loaded.error && loaded.error->kind != ImageErrorKind::wrong_size &&
+      loaded.error->kind != ImageErrorKind::wrong_format) {
+    throw config::ConfigError(path, 0, "", "", loaded.error->what);
+  }
+  return loaded;
+}
+
+SheetPosePercept not_seen(const std::string& reason, Stamp stamp) {
+  SheetPosePercept percept;
+  percept.stamp = stamp;
+  percept.reason = reason;
+  return percept;
 }
 
 }  // namespace
@@ -59,17 +103,21 @@ cv::Mat read_picture(const std::string& path) {
 int run_pose(const PoseOptions& options) {
   check_use(options);
   const config::Rig rig = config::load_rig(options.rig);
-  const Estimator estimate = estimator(options, rig.camera(options.camera));
+  const vision::CameraSetup& setup = rig.camera(options.camera);
+  const Estimator estimate = estimator(options, setup);
 
   bool all_estimated = true;
   Stamp stamp{};
   for (const std::string& path : options.images) {
-    const cv::Mat image = read_picture(path);
+    const hw::files::LoadedImage image = read_picture(path, setup.intrinsics);
+    cv::Mat drawing;
     const auto begin = std::chrono::steady_clock::now();
-    const SheetPosePercept percept = estimate(image, stamp);
+    const SheetPosePercept percept = image.error ? not_seen(image.error->what, stamp)
+                                                 : estimate(image.bgr, stamp, options.draw.empty() ? nullptr : &drawing);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", pose_line(path, percept, elapsed.count()));
     std::fflush(stdout);
+    if (!drawing.empty()) save(options.draw, path, drawing);
     all_estimated = all_estimated && percept.ok;
     stamp += from_seconds(1.0 / options.rate_hz);
   }

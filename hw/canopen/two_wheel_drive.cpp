@@ -129,45 +129,63 @@ void TwoWheelDrive::step_wheels(Stamp now) {
   }
 }
 
+template <typename Predicate>
+bool TwoWheelDrive::both(Predicate holds) const {
+  return holds(wheels_[0]) && holds(wheels_[1]);
+}
+
 void TwoWheelDrive::advance(Stamp now) {
-  const bool stop = std::exchange(stop_requested_, false) || error_;
-  const bool enable = std::exchange(enable_requested_, false) && !stop;
-  const auto all = [this](auto predicate) { return std::all_of(wheels_.begin(), wheels_.end(), predicate); };
-  const Duration elapsed = now - activity_since_;
+  const bool enable = std::exchange(enable_requested_, false);
+  const bool quick_stop = std::exchange(stop_requested_, false);
+  if (activity_ == Activity::enabled && !quick_stop) expire_command(now);
+  if (error_ || quick_stop) return advance_to_stop(error_.has_value(), now);
 
   switch (activity_) {
     case Activity::booting:
-      if (error_) return enter(Activity::braking, now);
-      if (all([](const WheelDrive& wheel) { return wheel.operational(); })) enter(Activity::ready, now);
+      if (both([](const WheelDrive& wheel) { return wheel.operational(); })) enter(Activity::ready, now);
       return;
     case Activity::ready:
     case Activity::stopped:
-      if (error_ && activity_ == Activity::ready) return enter(Activity::braking, now);
       if (enable) enter(Activity::enabling, now);
       return;
     case Activity::enabling:
-      if (stop) return enter(Activity::braking, now);
-      if (all([](const WheelDrive& wheel) { return wheel.state() == Cia402State::operation_enabled; })) {
+      if (both([](const WheelDrive& wheel) { return wheel.state() == Cia402State::operation_enabled; })) {
         last_set_point_ = now;
         enter(Activity::enabled, now);
       }
       return;
     case Activity::enabled:
-      expire_command(now);
-      if (stop || error_) enter(Activity::braking, now);
       return;
     case Activity::braking:
-      if (all([now](const WheelDrive& wheel) { return wheel.at_rest(now); })) return enter(Activity::powering_off, now);
+    case Activity::powering_off:
+      return advance_to_stop(false, now);
+  }
+}
+
+void TwoWheelDrive::advance_to_stop(bool faulted, Stamp now) {
+  const Duration elapsed = now - activity_since_;
+  switch (activity_) {
+    case Activity::booting:
+    case Activity::ready:
+      if (!faulted) return;  // a quick stop has nothing to stop
+      for (WheelDrive& wheel : wheels_) wheel.abandon_boot();
+      return enter(Activity::braking, now);
+    case Activity::enabling:
+    case Activity::enabled:
+      return enter(Activity::braking, now);
+    case Activity::braking:
+      if (both([now](const WheelDrive& wheel) { return wheel.at_rest(now); }))
+        return enter(Activity::powering_off, now);
       if (elapsed <= stop_deadline()) return;
       fail(DeviceErrorKind::refused, "drive", "does not come to rest by its quick stop; power is taken away", now);
       return enter(Activity::powering_off, now);
     case Activity::powering_off:
-      if (all([now](const WheelDrive& wheel) { return wheel.without_power(now); }))
+      if (both([now](const WheelDrive& wheel) { return wheel.without_power(now); }))
         return enter(Activity::stopped, now);
-      if (elapsed > config_.timing.state_timeout) {
-        fail(DeviceErrorKind::refused, "drive", "does not confirm that its power is off", now);
-        enter(Activity::stopped, now);
-      }
+      if (elapsed <= config_.timing.state_timeout) return;
+      fail(DeviceErrorKind::refused, "drive", "does not confirm that its power is off", now);
+      return enter(Activity::stopped, now);
+    case Activity::stopped:
       return;
   }
 }

@@ -43,6 +43,7 @@ class TwoWheelDrive final : public Drive {
   void watch_bus(Stamp now);
   void step_wheels(Stamp now);
   void advance(Stamp now);
+  void advance_to_stop(bool faulted, Stamp now);
   void expire_command(Stamp now);
   void send(Stamp now);
   void send_commands(Stamp now);
@@ -52,6 +53,8 @@ class TwoWheelDrive final : public Drive {
   void fail(DeviceErrorKind kind, std::string device, std::string what, Stamp now);
   DrivePhase phase() const;
   Cia402Goal goal() const;
+  template <typename Predicate>
+  bool both(Predicate holds) const;
   Duration stop_deadline() const;
 
   CanBus& bus_;

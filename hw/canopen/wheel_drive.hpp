@@ -2,18 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "hw/canopen/cia402_stepper.hpp"
 #include "hw/canopen/drive_config.hpp"
 #include "hw/canopen/emergency.hpp"
 #include "hw/canopen/feedback_check.hpp"
 #include "hw/canopen/nmt.hpp"
-#include "hw/canopen/sdo_client.hpp"
-#include "hw/canopen/wheel_pdos.hpp"
+#include "hw/canopen/wheel_boot.hpp"
 #include "hw/canopen/wheel_units.hpp"
 #include "hw/device_status.hpp"
 
@@ -24,14 +21,11 @@ class WheelDrive {
  public:
   enum class Stage {
     idle,
-    identify,             ///< reads 1000, 1018 and the device's name
-    reset_communication,  ///< waits for the boot-up message
-    configure,            ///< wheel_drive_setup()
-    confirm_mode,         ///< reads 6061 until it shows the mode
-    start,                ///< waits for heartbeat and PDOs in operational
-    clear_fault,          ///< fault reset by its edge, until switch on disabled
-    operational,          ///< supervised
-    failed,               ///< error() says why; takes stopping goals only
+    booting,         ///< WheelBoot
+    starting,        ///< NMT start: waits for heartbeat and PDOs in operational
+    clearing_fault,  ///< fault reset by its edge, until switch on disabled
+    operational,     ///< supervised
+    failed,          ///< error() says why; takes stopping goals only
   };
 
   /// Precondition: config_error(config) is empty and `wheel` is one of its wheels.
@@ -39,6 +33,8 @@ class WheelDrive {
 
   /// Begins from the identity check, and forgets any error.
   void boot(Stamp now);
+  /// Gives up a boot in progress, without an error of its own: something else is wrong.
+  void abandon_boot();
   /// Any frame of the bus; others' are ignored.
   void on_frame(const StampedCanFrame& received, Stamp now);
   /// Boot progress, deadlines and plausibility.
@@ -50,6 +46,7 @@ class WheelDrive {
   std::optional<CanFrame> command(Cia402Goal goal, double target_radps, Stamp now);
 
   Stage stage() const { return stage_; }
+  WheelBoot::Stage boot_stage() const { return boot_.stage(); }
   bool operational() const { return stage_ == Stage::operational; }
   Cia402State state() const { return state_; }
   double speed_radps() const { return speed_radps_; }
@@ -63,19 +60,15 @@ class WheelDrive {
   /// "left wheel (node 1)".
   const std::string& label() const { return label_; }
   /// Object 1008, empty if the device has none.
-  const std::string& device_name() const { return device_name_; }
+  const std::string& device_name() const { return boot_.device_name(); }
 
  private:
   void enter(Stage stage, Stamp now);
+  void halt();
   void fail(DeviceErrorKind kind, std::string what, Stamp now);
-  void fail(const SdoResult& result, Stamp now);
-
-  void continue_identify(Stamp now);
-  bool identity_matches(ObjectAddress address, const SdoResult& result, Stamp now);
-  void continue_configure(Stamp now);
-  void continue_confirm_mode(Stamp now);
-  void continue_start(Stamp now);
-  void continue_clear_fault(Stamp now);
+  void advance_boot(Stamp now);
+  void await_start(Stamp now);
+  void await_cleared_fault(Stamp now);
   void check_stage_deadline(Stamp now);
 
   void on_heartbeat(NmtState state, Stamp stamp, Stamp now);
@@ -93,15 +86,12 @@ class WheelDrive {
   double standstill_radps_;
   std::string label_;
   WheelUnits units_;
-  std::vector<SdoWrite> setup_;
 
   Stage stage_ = Stage::idle;
   Stamp stage_since_{};
-  std::size_t stage_item_ = 0;
-  bool started_ = false;
-  SdoClient sdo_;
-  std::deque<CanFrame> outgoing_;
-  std::string device_name_;
+  WheelBoot boot_;
+  bool started_ = false;  ///< NMT start was sent in this boot
+  std::optional<CanFrame> start_frame_;
 
   std::optional<Stamp> heartbeat_stamp_;
   NmtState nmt_state_ = NmtState::unknown;

@@ -33,12 +33,13 @@ struct SheetAppearance {
   double width_m = vision::rules::nominal_width_m;  ///< between the sidelines' inner edges
   Divider divider = Divider::line;
   double divider_width_m = 0.04;
-  double divider_height_m = 0.08;    ///< of bumper and rope
-  double rope_sway_m = 0.02;         ///< amplitude
-  double rope_wavelength_m = 5.0;    ///< of the sway
-  bool neighbours = true;            ///< sheets to the left and right are painted too
-  double neighbour_gap_m = 0.2;      ///< between our painted sideline and the neighbour's
-  std::array<Colour, 4> rings{{{0.02F, 0.07F, 0.45F}, {0.88F, 0.89F, 0.90F}, {0.55F, 0.02F, 0.02F}, {0.88F, 0.89F, 0.90F}}};
+  double divider_height_m = 0.08;  ///< of bumper and rope
+  double rope_sway_m = 0.02;       ///< amplitude
+  double rope_wavelength_m = 5.0;  ///< of the sway
+  bool neighbours = true;          ///< sheets to the left and right are painted too
+  double neighbour_gap_m = 0.2;    ///< between our painted sideline and the neighbour's
+  std::array<Colour, 4> rings{
+      {{0.02F, 0.07F, 0.45F}, {0.88F, 0.89F, 0.90F}, {0.55F, 0.02F, 0.02F}, {0.88F, 0.89F, 0.90F}}};
   Colour ice{0.86F, 0.87F, 0.88F};
   Colour hog_line{0.50F, 0.02F, 0.02F};
   Colour thin_lines{0.02F, 0.02F, 0.05F};  ///< centre, tee, back and courtesy lines
@@ -51,24 +52,24 @@ struct SheetAppearance {
 /// The hall around the ice: a box with boards about the ice, panels on the walls and lamps under the ceiling.
 struct HallAppearance {
   double height_m = 6.0;
-  double walkway_m = 2.5;        ///< between the boards and the walls
+  double walkway_m = 2.5;  ///< between the boards and the walls
   double board_height_m = 0.25;
-  double lamp_spacing_m = 6.0;   ///< along the sheet
-  double lamp_length_m = 1.2;    ///< along the sheet
+  double lamp_spacing_m = 6.0;  ///< along the sheet
+  double lamp_length_m = 1.2;   ///< along the sheet
   double lamp_width_m = 0.35;
   Colour walls{0.10F, 0.10F, 0.10F};
   Colour ceiling{0.03F, 0.03F, 0.035F};
   Colour floor{0.05F, 0.05F, 0.055F};
   Colour boards{0.03F, 0.04F, 0.20F};
-  bool panels = true;            ///< advertisements on the far wall and along the boards
+  bool panels = true;  ///< advertisements on the far wall and along the boards
 };
 
 struct LightAppearance {
-  double level = 0.75;           ///< of full scale: a surface of reflectance 1 in the picture's middle
-  double falloff_per_m = 0.0;    ///< relative change of the light per metre of x
-  double vignetting = 0.25;      ///< share of the light lost in the picture's corners
-  double lamp_gloss = 0.5;       ///< brightness of the lamps' reflections, 0 for none
-  double roughness_rad = 0.02;   ///< spread of the pebble's slopes: how far the reflections smear
+  double level = 0.75;          ///< of full scale: a surface of reflectance 1 in the picture's middle
+  double falloff_per_m = 0.0;   ///< relative change of the light per metre of x
+  double vignetting = 0.25;     ///< share of the light lost in the picture's corners
+  double lamp_gloss = 0.5;      ///< brightness of the lamps' reflections, 0 for none
+  double roughness_rad = 0.02;  ///< spread of the pebble's slopes: how far the reflections smear
 };
 
 struct RinkAppearance {
@@ -102,12 +103,12 @@ struct PersonLook {
 
 /// The sensor behind the lens.
 struct SensorModel {
-  double gamma = 1.0;                      ///< pixel = linear^(1/gamma)
-  double full_scale_electrons = 10000.0;   ///< shot noise: variance = signal
+  double gamma = 1.0;                     ///< pixel = linear^(1/gamma)
+  double full_scale_electrons = 10000.0;  ///< shot noise: variance = signal
   double read_noise_electrons = 8.0;
-  double pebble_contrast = 0.0;            ///< standard deviation of a pixel's brightness, share of its mean
-  double blur_sigma_px = 0.45;             ///< of lens and colour filter, beside the pixel's own square
-  bool noisy = true;                       ///< false: only the rounding to 8 bits is left
+  double pebble_contrast = 0.0;  ///< standard deviation of a pixel's brightness, share of its mean
+  double blur_sigma_px = 0.45;   ///< of lens and colour filter, beside the pixel's own square
+  bool noisy = true;             ///< false: only the rounding to 8 bits is left
 };
 
 }  // namespace hogline::hw::sim

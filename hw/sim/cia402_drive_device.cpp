@@ -1,6 +1,7 @@
 #include "hw/sim/cia402_drive_device.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -37,7 +38,10 @@ void Cia402DriveDevice::add_drive_objects() {
   const ObjectAccess rw = ObjectAccess::read_write;
   objects.add(0x6007, 0, 2, rw, 1).guard = only(0, 1, 2, 3);
   objects.add(0x603F, 0, 2, ro, 0, true);
-  objects.add(0x6040, 0, 2, rw, 0, true);
+  objects.add(0x6040, 0, 2, rw, 0, true).guard = [this](std::int64_t) -> std::uint32_t {
+    controlword_is_old_ = false;
+    return 0;
+  };
   objects.add(0x6041, 0, 2, ro, 0, true);
   objects.add(0x605A, 0, 2, rw, 2).guard = only(0, 1, 2, 5, 6);
   objects.add(0x605E, 0, 2, rw, 2).guard = only(0, 1, 2);
@@ -46,7 +50,7 @@ void Cia402DriveDevice::add_drive_objects() {
   objects.add(0x6064, 0, 4, ro, 0, true);
   objects.add(0x606C, 0, 4, ro, 0, true);
   const auto some = static_cast<std::int64_t>(std::llround(10.0 * config_.acceleration_units_per_rps2));
-  for (const std::uint16_t ramp : {0x6083, 0x6084, 0x6085}) {
+  for (const std::uint16_t ramp : std::array<std::uint16_t, 3>{0x6083, 0x6084, 0x6085}) {
     objects.add(ramp, 0, 4, rw, std::max<std::int64_t>(some, 1), true).guard = [](std::int64_t value) -> std::uint32_t {
       return static_cast<std::uint32_t>(value) == 0 ? 0x06090032 : 0;
     };
@@ -63,10 +67,13 @@ void Cia402DriveDevice::add_drive_objects() {
 void Cia402DriveDevice::on_reset() {
   state_ = State::not_ready;
   last_controlword_ = 0;
+  controlword_is_old_ = false;
   demand_rps_ = 0.0;
 }
 
 void Cia402DriveDevice::on_communication_lost() {
+  // What the lost master last said is no command any more: only a controlword that still arrives is.
+  controlword_is_old_ = true;
   if (state_ != State::operation_enabled) return;
   switch (communication_.objects().get_signed(0x6007)) {
     case 1:
@@ -120,6 +127,7 @@ AxisCommand Cia402DriveDevice::step(Stamp now, double dt_s, double axis_speed_ra
 }
 
 void Cia402DriveDevice::obey_controlword(double axis_speed_radps) {
+  if (controlword_is_old_) return;
   const auto word = static_cast<std::uint16_t>(communication_.objects().get(0x6040));
   const bool reset_edge = (word & 0x80) != 0 && (last_controlword_ & 0x80) == 0;
   last_controlword_ = word;

@@ -82,7 +82,8 @@ class Cia402DriveDevice final : private CanopenDevice::Application {
   DriveAxis axis_;
   State state_ = State::not_ready;
   std::uint16_t last_controlword_ = 0;
-  double demand_rps_ = 0.0;  ///< the ramp generator's output, motor revolutions per second
+  bool controlword_is_old_ = false;  ///< from before the communication was lost
+  double demand_rps_ = 0.0;          ///< the ramp generator's output, motor revolutions per second
   double switching_on_s_ = 0.0;
   AxisPower dead_axis_ = AxisPower::unpowered;
 };

@@ -10,6 +10,7 @@ namespace {
 constexpr float profile_variance = 20.0F;
 // An exposure's smear is a box, of variance width^2 / 12.
 constexpr float box_variance = 12.0F;
+constexpr float tiny = 1e-20F;
 constexpr float least_descent = 1e-4F;  // of a ray, in lengths of its direction
 
 // 0 to 1 as `s`, in widths of the edge, goes from -1/2 to 1/2.
@@ -18,6 +19,13 @@ inline float step(float s) {
   const float low = t > 0.0F ? t : 0.0F;
   const float c = low < 1.0F ? low : 1.0F;
   return c * c * (3.0F - 2.0F * c);
+}
+
+// How many of its widths an edge is away whose paint lies `d` metres off. A straight edge of paint is straight in the
+// picture, so D * d is linear there (D: the ray's descent); `shrink` is how fast ln D changes per metre.
+inline float widths(float d, float sharp, float shrink) {
+  const float scale = 1.0F + d * shrink;
+  return d * sharp / (scale > 0.5F ? scale : 0.5F);
 }
 
 // A wave of parabolas: as a sine to 6 %, without a library call.
@@ -43,7 +51,7 @@ IceView::IceView(const vision::Pose& eMc, const vision::Ice& ice)
 
 // tan of the angle in the ice is rho / sqrt((n^2 - 1) rho^2 + n^2 down^2) for a ray that goes rho sideways and down.
 void trace_ice(const IceView& view, const float* rx, const float* ry, const float* rz, int n, float* surface_x,
-               float* surface_y, float* paint_x, float* paint_y) {
+               float* surface_y, float* paint_x, float* paint_y, float* descent) {
   const auto [r0, r1, r2, r3, r4, r5, r6, r7, r8] = view.eRc;
   const float h = view.height_m;
   const float depth = view.paint_depth_m;
@@ -56,6 +64,7 @@ void trace_ice(const IceView& view, const float* rx, const float* ry, const floa
     const float dz = r6 * rx[i] + r7 * ry[i] + r8 * rz[i];
     const float down = -dz > least_descent ? -dz : least_descent;
     const float reach = h / down;
+    descent[i] = down;
     const float below = depth / std::sqrt((n2 - 1.0F) * (dx * dx + dy * dy) + n2 * down * down);
     surface_x[i] = cx + reach * dx;
     surface_y[i] = cy + reach * dy;
@@ -65,7 +74,7 @@ void trace_ice(const IceView& view, const float* rx, const float* ry, const floa
 }
 
 void IceTile::aim(const IceView& view, const RayTable& rays, int u, int v, const Smear& smear, float edge_variance) {
-  alignas(16) std::array<float, grid_size> rx, ry, rz, sx, sy, px, py;
+  alignas(16) std::array<float, grid_size> rx, ry, rz, sx, sy, px, py, descent;
   for (int j = 0; j < height + 2; ++j) {
     const float* from_x = rays.x(u - 1, v - 1 + j);
     const float* from_y = rays.y(u - 1, v - 1 + j);
@@ -77,35 +86,41 @@ void IceTile::aim(const IceView& view, const RayTable& rays, int u, int v, const
       rz[k] = from_z[i];
     }
   }
-  trace_ice(view, rx.data(), ry.data(), rz.data(), grid_size, sx.data(), sy.data(), px.data(), py.data());
+  trace_ice(view, rx.data(), ry.data(), rz.data(), grid_size, sx.data(), sy.data(), px.data(), py.data(),
+            descent.data());
 
   smear_ = smear;
   spread_ = profile_variance * edge_variance;
-  const float more_x = profile_variance / box_variance * smear.x_m * smear.x_m;
-  const float more_y = profile_variance / box_variance * smear.y_m * smear.y_m;
+  x_is_sharp_ = y_is_sharp_ = false;
   for (int j = 0; j < height; ++j) {
-    const float* X = &px[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* Y = &py[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* SX = &sx[static_cast<std::size_t>((j + 1) * grid_width + 1)];
-    const float* SY = &sy[static_cast<std::size_t>((j + 1) * grid_width + 1)];
+    const auto first = static_cast<std::size_t>((j + 1) * grid_width + 1);
+    const float* X = &px[first];
+    const float* Y = &py[first];
+    const float* D = &descent[first];
     const auto row = static_cast<std::size_t>(j * width);
     for (int i = 0; i < width; ++i) {
       const std::size_t k = row + static_cast<std::size_t>(i);
-      const float xu = 0.5F * (X[i + 1] - X[i - 1]);
-      const float xv = 0.5F * (X[i + grid_width] - X[i - grid_width]);
-      const float yu = 0.5F * (Y[i + 1] - Y[i - 1]);
-      const float yv = 0.5F * (Y[i + grid_width] - Y[i - grid_width]);
       x_[k] = X[i];
       y_[k] = Y[i];
-      surface_x_[k] = SX[i];
-      surface_y_[k] = SY[i];
-      x_by_u_[k] = xu;
-      x_by_v_[k] = xv;
-      y_by_u_[k] = yu;
-      y_by_v_[k] = yv;
-      sharp_x_[k] = 1.0F / std::sqrt(spread_ * (xu * xu + xv * xv) + more_x);
-      sharp_y_[k] = 1.0F / std::sqrt(spread_ * (yu * yu + yv * yv) + more_y);
+      surface_x_[k] = sx[first + static_cast<std::size_t>(i)];
+      surface_y_[k] = sy[first + static_cast<std::size_t>(i)];
+      x_by_u_[k] = 0.5F * (X[i + 1] - X[i - 1]);
+      x_by_v_[k] = 0.5F * (X[i + grid_width] - X[i - grid_width]);
+      y_by_u_[k] = 0.5F * (Y[i + 1] - Y[i - 1]);
+      y_by_v_[k] = 0.5F * (Y[i + grid_width] - Y[i - grid_width]);
+      const float by_descent = 0.5F / D[i];
+      fall_by_u_[k] = by_descent * (D[i + 1] - D[i - 1]);
+      fall_by_v_[k] = by_descent * (D[i + grid_width] - D[i - grid_width]);
     }
+  }
+}
+
+void IceTile::sharpen(const Pixels& by_u, const Pixels& by_v, float smear_m, Pixels& sharp, Pixels& shrink) const {
+  const float more = profile_variance / box_variance * smear_m * smear_m;
+  for (std::size_t k = 0; k < size; ++k) {
+    const float slope2 = by_u[k] * by_u[k] + by_v[k] * by_v[k];
+    sharp[k] = 1.0F / std::sqrt(spread_ * slope2 + more);
+    shrink[k] = (fall_by_u_[k] * by_u[k] + fall_by_v_[k] * by_v[k]) / (slope2 + tiny);
   }
 }
 
@@ -144,15 +159,21 @@ void IceTile::paint_rect(const PaintedRect& rect, bool on_surface, bool ends_in_
   const Pixels& x = on_surface ? surface_x_ : x_;
   const Pixels& y = on_surface ? surface_y_ : y_;
   if (ends_in_x) {
+    if (!x_is_sharp_) sharpen(x_by_u_, x_by_v_, smear_.x_m, sharp_x_, shrink_x_);
+    x_is_sharp_ = true;
     const float phase = 1.0F / rect.wavelength_m;
     for (std::size_t k = 0; k < size; ++k) {
       const float at = x[k] - rect.sway_m * wave(y[k] * phase);
-      coverage[k] = step((at - rect.x0_m) * sharp_x_[k]) - step((at - rect.x1_m) * sharp_x_[k]);
+      coverage[k] = step(widths(at - rect.x0_m, sharp_x_[k], shrink_x_[k])) -
+                    step(widths(at - rect.x1_m, sharp_x_[k], shrink_x_[k]));
     }
   }
   if (ends_in_y) {
+    if (!y_is_sharp_) sharpen(y_by_u_, y_by_v_, smear_.y_m, sharp_y_, shrink_y_);
+    y_is_sharp_ = true;
     for (std::size_t k = 0; k < size; ++k) {
-      coverage[k] *= step((y[k] - rect.y0_m) * sharp_y_[k]) - step((y[k] - rect.y1_m) * sharp_y_[k]);
+      coverage[k] *= step(widths(y[k] - rect.y0_m, sharp_y_[k], shrink_y_[k])) -
+                     step(widths(y[k] - rect.y1_m, sharp_y_[k], shrink_y_[k]));
     }
   }
   blend(coverage, rect.colour);

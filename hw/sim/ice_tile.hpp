@@ -28,9 +28,9 @@ struct IceView {
 };
 
 /// Where `n` rays (in c) meet the surface, and the paint that they are refracted to (Snell). Rays at or above the
-/// horizon give points very far away.
+/// horizon give points very far away. `descent` is by how much a ray falls, in its own lengths.
 void trace_ice(const IceView& view, const float* rx, const float* ry, const float* rz, int n, float* surface_x,
-               float* surface_y, float* paint_x, float* paint_y);
+               float* surface_y, float* paint_x, float* paint_y, float* descent);
 
 /// How far the paint moves under a pixel during the exposure.
 struct Smear {
@@ -67,6 +67,7 @@ class IceTile {
   using Pixels = std::array<float, size>;
 
   void blend(const Pixels& coverage, const Colour& colour);
+  void sharpen(const Pixels& by_u, const Pixels& by_v, float smear_m, Pixels& sharp, Pixels& shrink) const;
 
   alignas(16) Pixels x_;  ///< the paint under a pixel's centre
   alignas(16) Pixels y_;
@@ -76,13 +77,19 @@ class IceTile {
   alignas(16) Pixels x_by_v_;
   alignas(16) Pixels y_by_u_;
   alignas(16) Pixels y_by_v_;
+  alignas(16) Pixels fall_by_u_;  ///< relative change of the ray's descent from pixel to pixel
+  alignas(16) Pixels fall_by_v_;
   alignas(16) Pixels sharp_x_;  ///< 1 / width of an edge across x, in 1/m
   alignas(16) Pixels sharp_y_;
+  alignas(16) Pixels shrink_x_;  ///< relative change of the ray's descent towards +x, in 1/m
+  alignas(16) Pixels shrink_y_;
   alignas(16) Pixels red_;
   alignas(16) Pixels green_;
   alignas(16) Pixels blue_;
   Smear smear_;
   float spread_ = 1.0F;
+  bool x_is_sharp_ = false;  ///< sharp_x_ and shrink_x_ are worked out
+  bool y_is_sharp_ = false;
 };
 
 }  // namespace hogline::hw::sim

@@ -47,7 +47,8 @@ void mirror(const Lamp& lamp, const IceView& view, float height, float roughness
 LightField::LightField(const RayTable& rays, const vision::Intrinsics& intrinsics, const LightAppearance& light,
                        const Hall& hall)
     : appearance_(light), hall_(hall), across_(rays.tiles_across() + 1) {
-  const double corner2 = 0.25 * (intrinsics.width_px * intrinsics.width_px + intrinsics.height_px * intrinsics.height_px);
+  const double corner2 =
+      0.25 * (intrinsics.width_px * intrinsics.width_px + intrinsics.height_px * intrinsics.height_px);
   for (int j = 0; j <= rays.tiles_down(); ++j) {
     for (int i = 0; i < across_; ++i) {
       const int u = i * RayTable::tile_width - 1;
@@ -69,8 +70,8 @@ LightField::LightField(const RayTable& rays, const vision::Intrinsics& intrinsic
           static_cast<float>(light.level * (1.0 - light.vignetting * std::min(1.0, (du * du + dv * dv) / corner2))));
     }
   }
-  for (auto* plane : {&sx_, &sy_, &px_, &py_, &smear_x_, &smear_y_, &light_, &gloss_, &ax_, &ay_, &bx_, &by_, &unused_x_,
-                      &unused_y_}) {
+  for (auto* plane : {&sx_, &sy_, &px_, &py_, &smear_x_, &smear_y_, &light_, &gloss_, &ax_, &ay_, &bx_, &by_,
+                      &unused_x_, &unused_y_, &descent_}) {
     plane->assign(rx_.size(), 0.0F);
   }
   on_ice_.assign(rx_.size(), 0);
@@ -78,10 +79,13 @@ LightField::LightField(const RayTable& rays, const vision::Intrinsics& intrinsic
 
 void LightField::look(const IceView& view, const IceView& begin, const IceView& end, bool moving) {
   const int n = static_cast<int>(rx_.size());
-  trace_ice(view, rx_.data(), ry_.data(), rz_.data(), n, sx_.data(), sy_.data(), px_.data(), py_.data());
+  trace_ice(view, rx_.data(), ry_.data(), rz_.data(), n, sx_.data(), sy_.data(), px_.data(), py_.data(),
+            descent_.data());
   if (moving) {
-    trace_ice(begin, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), ax_.data(), ay_.data());
-    trace_ice(end, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), bx_.data(), by_.data());
+    trace_ice(begin, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), ax_.data(), ay_.data(),
+              descent_.data());
+    trace_ice(end, rx_.data(), ry_.data(), rz_.data(), n, unused_x_.data(), unused_y_.data(), bx_.data(), by_.data(),
+              descent_.data());
   }
   const IceBounds& ice = hall_.ice();
   const auto falloff = static_cast<float>(appearance_.falloff_per_m);
@@ -105,7 +109,8 @@ void LightField::mirror_lamps(const IceView& view) {
     const auto power = lamp_power * static_cast<float>(appearance_.lamp_gloss);
     for (float y = (std::floor(hall_.ice().y0_m / spacing) + 0.5F) * spacing; y < hall_.ice().y1_m; y += spacing) {
       for (const float x : hall_.lamp_columns_m()) {
-        const Lamp lamp{x, y, 0.5F * static_cast<float>(hall.lamp_width_m), 0.5F * static_cast<float>(hall.lamp_length_m)};
+        const Lamp lamp{x, y, 0.5F * static_cast<float>(hall.lamp_width_m),
+                        0.5F * static_cast<float>(hall.lamp_length_m)};
         mirror(lamp, view, static_cast<float>(hall.height_m), static_cast<float>(appearance_.roughness_rad), power, n,
                sx_.data(), sy_.data(), gloss_.data());
       }

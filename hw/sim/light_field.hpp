@@ -13,9 +13,11 @@ namespace hogline::hw::sim {
 
 class LightField {
  public:
-  LightField(const RayTable& rays, const vision::Intrinsics& intrinsics, const LightAppearance& light, const Hall& hall);
+  LightField(const RayTable& rays, const vision::Intrinsics& intrinsics, const LightAppearance& light,
+             const Hall& hall);
 
-  /// Works out every corner for a camera that moves from `begin` to `end` during the exposure, with `view` in the middle.
+  /// Works out every corner for a camera that moves from `begin` to `end` during the exposure, with `view` in the
+  /// middle.
   void look(const IceView& view, const IceView& begin, const IceView& end, bool moving);
 
   /// The corner at the left and top of tile (i, j); i may be tiles_across(), j tiles_down().
@@ -41,7 +43,7 @@ class LightField {
   int across_;
   std::vector<float> rx_, ry_, rz_, vignette_;
   std::vector<float> sx_, sy_, px_, py_, smear_x_, smear_y_, light_, gloss_;
-  std::vector<float> ax_, ay_, bx_, by_, unused_x_, unused_y_;
+  std::vector<float> ax_, ay_, bx_, by_, unused_x_, unused_y_, descent_;
   std::vector<char> valid_, on_ice_;
 };
 

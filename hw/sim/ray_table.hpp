@@ -28,7 +28,8 @@ class RayTable {
 
  private:
   std::size_t index(int u, int v) const {
-    return static_cast<std::size_t>(v + apron) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(u + apron);
+    return static_cast<std::size_t>(v + apron) * static_cast<std::size_t>(stride_) +
+           static_cast<std::size_t>(u + apron);
   }
 
   int tiles_across_;

@@ -58,8 +58,8 @@ void add_lines(std::vector<PaintedRect>& rects, const SheetAppearance& sheet, do
   const double half = sheet.width_m / 2.0;
   for (const auto& line : vision::cross_lines()) {
     const bool hog = line.name.find("hog") != std::string_view::npos;
-    rects.push_back(rect(x - half, x + half, line.near_edge_y_m, line.far_edge_y_m,
-                         hog ? sheet.hog_line : sheet.thin_lines));
+    rects.push_back(
+        rect(x - half, x + half, line.near_edge_y_m, line.far_edge_y_m, hog ? sheet.hog_line : sheet.thin_lines));
   }
   rects.push_back(rect(x - thin_line_width_m / 2.0, x + thin_line_width_m / 2.0, vision::centre_line_begin_y_m,
                        vision::centre_line_end_y_m, sheet.thin_lines));

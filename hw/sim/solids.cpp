@@ -113,14 +113,17 @@ std::optional<Hit> Solid::meet(const Ray& ray) const {
   const Eigen::Vector3f to = centre_ - ray.origin;
   const float along = to.dot(ray.direction);
   const float length2 = ray.direction.squaredNorm();
-  if (along <= 0.0F || to.squaredNorm() * length2 - along * along > radius_m_ * radius_m_ * length2) return std::nullopt;
+  if (along <= 0.0F || to.squaredNorm() * length2 - along * along > radius_m_ * radius_m_ * length2)
+    return std::nullopt;
 
   std::optional<Hit> nearest;
   for (const Body& body : bodies_) {
     const Eigen::Vector3f o = ray.origin - body.centre;
     const Eigen::Vector3f& d = ray.direction;
-    const Eigen::Vector3f own_o(body.turn_cos * o.x() + body.turn_sin * o.y(), body.turn_cos * o.y() - body.turn_sin * o.x(), o.z());
-    const Eigen::Vector3f own_d(body.turn_cos * d.x() + body.turn_sin * d.y(), body.turn_cos * d.y() - body.turn_sin * d.x(), d.z());
+    const Eigen::Vector3f own_o(body.turn_cos * o.x() + body.turn_sin * o.y(),
+                                body.turn_cos * o.y() - body.turn_sin * o.x(), o.z());
+    const Eigen::Vector3f own_d(body.turn_cos * d.x() + body.turn_sin * d.y(),
+                                body.turn_cos * d.y() - body.turn_sin * d.x(), d.z());
     const auto contact = body.shape == Shape::ellipsoid  ? meet_ellipsoid(own_o, own_d, body.half)
                          : body.shape == Shape::cylinder ? meet_cylinder(own_o, own_d, body.half)
                                                          : meet_box(own_o, own_d, body.half);

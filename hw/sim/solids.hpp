@@ -28,7 +28,8 @@ class Hall {
  public:
   Hall(const HallAppearance& look, const IceBounds& bounds);
 
-  /// What the hall shows to a ray. `material` tells apart what must not be blended; nothing where the ray meets the ice.
+  /// What the hall shows to a ray. `material` tells apart what must not be blended; nothing where the ray meets the
+  /// ice.
   struct View {
     Colour colour;
     int material = 0;

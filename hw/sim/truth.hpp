@@ -22,6 +22,7 @@ struct StoneTruth {
   double vx_mps = 0.0;
   double vy_mps = 0.0;
   double spin_radps = 0.0;  ///< counter-clockwise from above positive
+  double handle_rad = 0.0;  ///< direction of the handle from e's y axis, counter-clockwise positive
 };
 
 /// The moment the stone was free of the jaws.

@@ -95,7 +95,7 @@ void VirtualCanBus::transmit(Endpoint& sender, Stamp end) {
     return;
   }
   if (happens(config_.corruption) && received.frame.length > 0) {
-    const auto bit = static_cast<std::size_t>(random_() % (8u * received.frame.length));
+    const auto bit = static_cast<std::size_t>(random_() % (std::uint64_t{8} * received.frame.length));
     received.frame.data[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
   }
   const int copies = happens(config_.duplication) ? 2 : 1;

@@ -53,6 +53,7 @@ void World::substep(const WorldInputs& inputs, Duration span) {
     slide(truth_.stone, stone_, dt_s);
     detect_touch();
   }
+  truth_.stone.handle_rad += truth_.stone.spin_radps * dt_s;
 }
 
 // The held stone's centre is a point of the body; the belt turns it against the body.
@@ -64,7 +65,8 @@ void World::carry(double belt_radps) {
                   .y_m = truth_.body.y_m + c * stone_.stone_x_m,
                   .vx_mps = -s * truth_.twist.forward_mps - c * across_mps,
                   .vy_mps = c * truth_.twist.forward_mps - s * across_mps,
-                  .spin_radps = belt_radps + truth_.twist.yaw_radps};
+                  .spin_radps = belt_radps + truth_.twist.yaw_radps,
+                  .handle_rad = truth_.stone.handle_rad};
 }
 
 void World::release() {

@@ -191,9 +191,10 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
 }
 
 void require_sections(const json& root, const Document& document) {
-  for (const char* name : {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm"}) {
+  for (const char* name : {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm", "gyro"}) {
     if (!root.contains(name)) {
-      throw ConfigError(document.file, 0, name, "", "missing; a throw needs this section (see config/rigs/practice.yaml)");
+      throw ConfigError(document.file, 0, name, "",
+                        "missing; a throw needs this section (see config/rigs/practice.yaml)");
     }
   }
 }
@@ -202,10 +203,11 @@ void require_sections(const json& root, const Document& document) {
 void check_release(const servo::ReleaseConfig& r, const Document& document) {
   const double nearest_m = r.hog_distance_m - r.tolerance_m - r.stone_x_m;
   if (nearest_m < vision::rules::stone_radius_m) {
-    throw ConfigError(document.file, document.line_of("release"), "release", "",
-                      fmt::format("hog_distance_m - tolerance_m - stone_x_m is {:.3f}; must be at least {} (the stone's "
-                                  "centre must leave the jaws a radius before the hog line)",
-                                  nearest_m, vision::rules::stone_radius_m));
+    throw ConfigError(
+        document.file, document.line_of("release"), "release", "",
+        fmt::format("hog_distance_m - tolerance_m - stone_x_m is {:.3f}; must be at least {} (the stone's "
+                    "centre must leave the jaws a radius before the hog line)",
+                    nearest_m, vision::rules::stone_radius_m));
   }
 }
 
@@ -227,6 +229,11 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.modbus = read_modbus(s.section("modbus"), document);
   rig.gripper = read_gripper(s.section("gripper"));
   rig.arm = read_axis(s.section("arm"));
+  const Section gyro = s.section("gyro");
+  rig.gyro = {.sign = gyro.number("sign"),
+              .latency = gyro.duration("latency_s"),
+              .silence_limit = gyro.duration("silence_limit_s"),
+              .max_rate_radps = gyro.radians("max_rate_degps")};
   return rig;
 }
 

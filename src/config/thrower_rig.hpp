@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "hw/canopen/drive_config.hpp"
+#include "hw/dsp3000/dsp3000_gyro.hpp"
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
@@ -20,6 +21,7 @@ struct ThrowerRig {
   hw::ModbusSessionConfig modbus;
   hw::ModbusGripperConfig gripper;
   hw::AxisConfig arm;
+  hw::Dsp3000Config gyro;
 };
 
 /// Reads and checks a rig file with every section that a throw needs. Throws ConfigError.

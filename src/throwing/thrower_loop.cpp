@@ -120,6 +120,8 @@ void ThrowerLoop::apply(const servo::ThrowerCommand& command, Stamp now) {
   }
   if (command.gripper.release) {
     devices_.gripper.release();
+    if (!releasing_) devices_.gripper.step(now);  // at once: a control period is a centimetre
+    releasing_ = true;
   } else {
     devices_.gripper.spin(command.gripper.spin_radps);
   }

@@ -28,6 +28,7 @@ class ThrowerLoop {
   ThrowerEyes eyes_;
   servo::Thrower thrower_;
   servo::ThrowerCommand command_;
+  bool releasing_ = false;
 };
 
 }  // namespace hogline

@@ -21,6 +21,8 @@ struct SheetFitStart {
   double roll_sigma_rad = 0.0;          ///< weak prior on the mount's roll, 0 for none
   double pitch_sigma_rad = 0.0;         ///< weak prior on the mount's pitch, 0 for none
   double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
+  double travel_m = 0.0;                ///< of the camera along y during the exposure: motion blur to expect
+  double paint_depth_sigma_m = 0.0;     ///< prior on the setup's paint depth; 0: taken as given, else estimated too
 };
 
 /// A place where paint was looked for.
@@ -50,6 +52,7 @@ struct SheetFitResult {
   double hog_distance_sigma_m = 0.0;
   std::optional<double> sheet_width_m;  ///< empty where no sideline pair was used
   double sheet_width_sigma_m = 0.0;
+  double paint_depth_m = 0.0;  ///< as given, or as estimated
   double residual_px = 0.0;
   int sites_tried = 0;
   int sites_used = 0;

@@ -1,0 +1,34 @@
+// The recent past of the simulated world, for cameras whose frames are exposed between two steps.
+#pragma once
+
+#include <deque>
+
+#include "hw/sim/truth.hpp"
+
+namespace hogline::hw::sim {
+
+/// Samples in the order of their stamps, kept for a while; between two of them all motion is taken to be even.
+class WorldHistory {
+ public:
+  explicit WorldHistory(Duration kept) : kept_(kept) {}
+
+  void add(const Truth& truth);
+
+  struct Place {
+    PlanarPose body;
+    BodyTwist twist;
+    double pitch_rad = 0.0;
+    double pitch_rate_radps = 0.0;
+    StoneTruth stone;
+    bool held = false;
+    double arm_unfolded = 0.0;
+  };
+  /// Precondition: at least one sample. A stamp outside what is kept gives the nearest sample.
+  Place at(Stamp stamp) const;
+
+ private:
+  Duration kept_;
+  std::deque<Truth> samples_;
+};
+
+}  // namespace hogline::hw::sim

@@ -1,0 +1,91 @@
+#include "servo/hog_distance_filter.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace hogline::servo {
+namespace {
+
+constexpr auto history_span = std::chrono::milliseconds(500);
+constexpr double gate_sigma = 4.0;
+constexpr double standstill_mps = 0.02;
+
+HogDistanceModel::State placed(const OdometryConfig& config, double hog_distance_m, double sigma_m) {
+  HogDistanceModel::State state;
+  state.hog_distance_m = hog_distance_m;
+  state.distance_distance = sigma_m * sigma_m;
+  state.scale_scale = config.scale_sigma * config.scale_sigma;
+  return state;
+}
+
+}  // namespace
+
+void HogDistanceModel::propagate(State& state, double travelled_m) const {
+  const double length_m = std::abs(travelled_m);
+  state.hog_distance_m -= state.scale * travelled_m;
+  state.distance_distance += travelled_m * (-2.0 * state.distance_scale + travelled_m * state.scale_scale) +
+                             config_.noise_m_per_sqrt_m * config_.noise_m_per_sqrt_m * length_m;
+  state.distance_scale -= travelled_m * state.scale_scale;
+  state.scale_scale += config_.scale_drift_per_sqrt_m * config_.scale_drift_per_sqrt_m * length_m;
+}
+
+void HogDistanceModel::hold(State& state, double dt_s) const { propagate(state, state.odometry_mps * dt_s); }
+
+void HogDistanceModel::drive(State& state, double dt_s, const Input& input) const {
+  propagate(state, (state.odometry_mps + input.odometry_mps) / 2.0 * dt_s);
+  state.odometry_mps = input.odometry_mps;
+}
+
+bool HogDistanceModel::correct(State& state, const Measurement& measurement) const {
+  const double innovation = measurement.hog_distance_m - state.hog_distance_m;
+  const double variance = state.distance_distance + measurement.sigma_m * measurement.sigma_m;
+  if (innovation * innovation > gate_sigma * gate_sigma * variance) return false;
+  const double distance_gain = state.distance_distance / variance;
+  const double scale_gain = state.distance_scale / variance;
+  state.hog_distance_m += distance_gain * innovation;
+  state.scale += scale_gain * innovation;
+  state.scale_scale -= scale_gain * state.distance_scale;
+  state.distance_scale -= scale_gain * state.distance_distance;
+  state.distance_distance -= distance_gain * state.distance_distance;
+  return true;
+}
+
+HogDistanceFilter::HogDistanceFilter(const OdometryConfig& config, Stamp start, double hog_distance_m, double sigma_m)
+    : model_(config), fusion_(model_, history_span, start, placed(config, hog_distance_m, sigma_m)) {
+  assert(std::isfinite(hog_distance_m) && sigma_m > 0.0);
+}
+
+void HogDistanceFilter::odometry(Stamp stamp, double forward_mps, double yaw_rad) {
+  fusion_.input(stamp, {forward_mps * std::cos(yaw_rad)});
+}
+
+Fusion HogDistanceFilter::hog_distance(Stamp stamp, double hog_distance_m, double sigma_m) {
+  assert(std::isfinite(hog_distance_m) && sigma_m > 0.0);
+  const Fusion fusion = fusion_.measure(stamp, {hog_distance_m, sigma_m});
+  if (fusion == Fusion::accepted) gated_in_a_row_ = 0;
+  if (fusion == Fusion::gated) ++gated_, ++gated_in_a_row_;
+  return fusion;
+}
+
+HogDistanceEstimate HogDistanceFilter::at(Stamp stamp) const {
+  const HogDistanceModel::State state = fusion_.at(stamp);
+  const double scale_sigma = std::sqrt(state.scale_scale);
+  return {state.hog_distance_m,
+          std::sqrt(state.distance_distance),
+          state.scale * state.odometry_mps,
+          std::abs(state.odometry_mps) * scale_sigma,
+          state.scale,
+          scale_sigma};
+}
+
+std::optional<Crossing> HogDistanceFilter::crossing(Stamp now, double plane_hog_distance_m) const {
+  HogDistanceModel::State state = fusion_.at(now);
+  const double speed_mps = state.scale * state.odometry_mps;
+  if (speed_mps < standstill_mps) return std::nullopt;
+  const double ahead_s = (state.hog_distance_m - plane_hog_distance_m) / speed_mps;
+  model_.hold(state, ahead_s);
+  const double sigma_m = std::sqrt(state.distance_distance);
+  return Crossing{now + from_seconds(ahead_s), sigma_m / speed_mps, sigma_m};
+}
+
+}  // namespace hogline::servo

@@ -1,0 +1,84 @@
+// Distance to the hog line while running: wheel odometry carries it, low views correct it at their own stamps.
+#pragma once
+
+#include <optional>
+
+#include "servo/delayed_fusion.hpp"
+#include "servo/thrower_config.hpp"
+
+namespace hogline::servo {
+
+struct HogDistanceEstimate {
+  double hog_distance_m = 0.0;  ///< of b's origin from the hog line's house-side edge, along e's y
+  double hog_distance_sigma_m = 0.0;
+  double speed_mps = 0.0;  ///< towards the line, along e's y
+  double speed_sigma_mps = 0.0;
+  double scale = 1.0;  ///< true over measured distance
+  double scale_sigma = 0.0;
+};
+
+/// When a plane will be crossed, if the body goes on at its present speed.
+struct Crossing {
+  Stamp stamp{};
+  double sigma_s = 0.0;
+  double hog_distance_sigma_m = 0.0;  ///< of the body when it crosses
+};
+
+/// Two-state extended Kalman filter (distance, odometry scale).
+class HogDistanceModel {
+ public:
+  struct State {
+    double hog_distance_m = 0.0;
+    double scale = 1.0;
+    double odometry_mps = 0.0;  ///< measured, along e's y, in force since the last input
+    double distance_distance = 0.0;
+    double distance_scale = 0.0;
+    double scale_scale = 0.0;
+  };
+  struct Input {
+    double odometry_mps = 0.0;
+  };
+  struct Measurement {
+    double hog_distance_m = 0.0;
+    double sigma_m = 0.0;
+  };
+
+  explicit HogDistanceModel(const OdometryConfig& config) : config_(config) {}
+  void hold(State& state, double dt_s) const;
+  void drive(State& state, double dt_s, const Input& input) const;
+  bool correct(State& state, const Measurement& measurement) const;
+
+ private:
+  void propagate(State& state, double travelled_m) const;
+  OdometryConfig config_;
+};
+
+class HogDistanceFilter {
+ public:
+  /// Starts at rest at a measured place (near view). Precondition: finite, sigma_m > 0.
+  HogDistanceFilter(const OdometryConfig& config, Stamp start, double hog_distance_m, double sigma_m);
+
+  /// Wheel odometry: measured forward speed and the heading it is run at.
+  void odometry(Stamp stamp, double forward_mps, double yaw_rad);
+
+  /// A hog distance seen at `stamp`, however late. Precondition: finite, sigma_m > 0.
+  Fusion hog_distance(Stamp stamp, double hog_distance_m, double sigma_m);
+
+  /// Past the last measurement this is dead reckoning, and its sigma says so.
+  HogDistanceEstimate at(Stamp stamp) const;
+
+  /// When the body's origin is at this distance from the line; nothing when it does not move towards the line. A plane
+  /// that lies behind has a stamp before `now`.
+  std::optional<Crossing> crossing(Stamp now, double plane_hog_distance_m) const;
+
+  int gated() const { return gated_; }
+  int gated_in_a_row() const { return gated_in_a_row_; }
+
+ private:
+  HogDistanceModel model_;
+  DelayedFusion<HogDistanceModel> fusion_;
+  int gated_ = 0;
+  int gated_in_a_row_ = 0;
+};
+
+}  // namespace hogline::servo

@@ -1,0 +1,74 @@
+// The inside of Thrower: what its states share. Included by thrower*.cpp only.
+#pragma once
+
+#include <optional>
+
+#include "servo/line_tracking.hpp"
+#include "servo/place_average.hpp"
+#include "servo/release.hpp"
+#include "servo/safety.hpp"
+#include "servo/speed_profile.hpp"
+#include "servo/thrower.hpp"
+#include "servo/thrower_estimate.hpp"
+#include "servo/yaw_alignment.hpp"
+
+namespace hogline::servo {
+
+struct Thrower::Impl {
+  Impl(const ThrowerConfig& config, const ShotOrder& order, Stamp start);
+
+  // thrower.cpp: the machine
+  ThrowerCommand step(const ThrowerObservation& observation, Duration dt);
+  std::optional<std::string> judge(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand act(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand stop_for_good(const ThrowerObservation& observation, Duration dt);
+  void enter(ThrowerState next, Stamp now);
+  void diagnose(Stamp now);
+  InputNeeds needs(const ThrowerObservation& observation) const;
+  EstimateUse use() const;
+  Duration deadline() const;
+
+  // thrower_standing.cpp: the states before the run
+  ThrowerCommand unfold(const ThrowerObservation& observation);
+  ThrowerCommand measure(const ThrowerObservation& observation);
+  ThrowerCommand align(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand fold(const ThrowerObservation& observation, Duration dt);
+  std::optional<std::string> run_does_not_fit(double hog_distance_m) const;
+  double turn_to_heading(Stamp now, Duration dt, bool& settled);
+
+  // thrower_running.cpp: the run and after
+  ThrowerCommand run(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand release(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand brake(const ThrowerObservation& observation, Duration dt);
+  ThrowerCommand stopped() const;
+  ReleaseOutlook outlook(const ThrowerObservation& observation, Duration dt) const;
+  std::optional<std::string> last_chance_missed(const ReleaseOutlook& outlook) const;
+  bool has_come_to_rest(const ThrowerObservation& observation, Duration dt);
+  DriveCommand drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt);
+  DriveCommand velocity(const PlanarTwist& twist) const;
+  double spin_radps() const;
+
+  ThrowerConfig config;
+  ShotOrder order;
+  ThrowerState state = ThrowerState::unfold;
+  std::vector<StateEntry> history;
+  ThrowerDiagnosis diagnosis;
+  Latch abort;
+  TurnAgreement agreement;
+  ThrowerEstimate estimate;
+  std::optional<Stamp> last_now;
+
+  PlaceAverage place;                     // measure, align
+  std::optional<YawAlignment> alignment;  // align, fold
+  Stamp moved{};                          // align: the last moment a turn was ordered
+  std::optional<SpeedProfile> profile;    // run
+  std::optional<LineTracking> tracking;   // run, release, brake
+  double speed_setpoint_mps = 0.0;
+  double driven_scale = 1.0;  // of the odometry, as passed on to the wheels
+  bool release_ordered = false;
+  bool released = false;
+  Duration at_rest_for{};
+  bool at_rest = false;
+};
+
+}  // namespace hogline::servo

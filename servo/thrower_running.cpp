@@ -1,0 +1,127 @@
+// The run and what comes after it: run, release, brake, stopped.
+#include <algorithm>
+#include <cmath>
+
+#include "servo/thrower_impl.hpp"
+
+namespace hogline::servo {
+namespace {
+
+constexpr double resting_mps = 0.01;
+constexpr double resting_radps = 0.02;
+constexpr auto resting_time = std::chrono::milliseconds(200);
+constexpr double scale_part = 0.2;
+constexpr double line_sigmas = 3.0;  // of the place, kept clear of the hog line when braking with the stone
+
+}  // namespace
+
+ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
+  ThrowerCommand command;
+  command.camera = CameraOrder::low;
+  command.gripper.spin_radps = spin_radps();
+  if (!o.arm->folded) abort.set("arm: not folded (run)");
+
+  speed_setpoint_mps = profile->speed_mps(seconds(o.now - history.back().since));
+  const HogDistanceEstimate hog = estimate.hog_distance().at(o.now);
+  const double to_release_s = (hog.hog_distance_m - config.release.hog_distance_m) / order.speed_mps;
+  command.drive = drive(speed_setpoint_mps, o.now, to_release_s, dt);
+
+  ReleaseOutlook view = outlook(o, dt);
+  abort.set(last_chance_missed(view));
+  view.wanted_speed_mps = order.speed_mps;
+  const ReleaseDecision decision = decide_release(config.release, config.run, estimate.hog_distance(), view);
+  diagnosis.predicted_release = decision.predicted;
+  if (decision.verdict == ReleaseVerdict::never) abort.set("release: " + decision.reason);
+  if (decision.verdict != ReleaseVerdict::release || abort.reason()) return command;
+
+  release_ordered = true;
+  command.gripper.release = true;
+  enter(ThrowerState::release, o.now);
+  return command;
+}
+
+ReleaseOutlook Thrower::Impl::outlook(const ThrowerObservation& o, Duration dt) const {
+  ReleaseOutlook view;
+  view.now = o.now;
+  view.dt = dt;
+  view.heading_rad = estimate.heading(o.now).yaw_rad;
+  view.lateral_m = estimate.lateral().lateral_m();
+  view.wanted_heading_rad = order.heading_rad;
+  view.wanted_speed_mps = speed_setpoint_mps;
+  view.spin_error_radps = o.gripper->spin_radps - spin_radps();
+  return view;
+}
+
+// As long as the body can brake before the line, nothing is lost by going on. At the last such moment, and after it,
+// going on must be worth it.
+std::optional<std::string> Thrower::Impl::last_chance_missed(const ReleaseOutlook& view) const {
+  const HogDistanceEstimate hog = estimate.hog_distance().at(view.now);
+  const double ahead_m = stone_distance_m(hog.hog_distance_m, view.heading_rad, config.release) - stone_to_hog_line_m -
+                         line_sigmas * hog.hog_distance_sigma_m;
+  const double speed_mps = std::max(hog.speed_mps, speed_setpoint_mps);
+  const double reaction_s = config.safety.reaction_s + seconds(view.dt);
+  if (ahead_m > stopping_distance_m(speed_mps, config.limits.max_deceleration_mps2, reaction_s)) return std::nullopt;
+  const auto reason = no_valid_release(config.release, config.run, estimate.hog_distance(), view);
+  if (reason) return "no valid release ahead: " + *reason;
+  return std::nullopt;
+}
+
+ThrowerCommand Thrower::Impl::release(const ThrowerObservation& o, Duration dt) {
+  ThrowerCommand command;
+  command.gripper = {true, spin_radps()};
+  command.drive = drive(order.speed_mps, o.now, 0.0, dt);
+  const bool freed = o.now - history.back().since >= from_seconds(config.release.gripper_delay_s);
+  if (!freed || !o.gripper->open) return command;
+  released = true;
+  enter(ThrowerState::brake, o.now);
+  return command;
+}
+
+ThrowerCommand Thrower::Impl::brake(const ThrowerObservation& o, Duration dt) {
+  ThrowerCommand command;
+  command.gripper.release = true;
+  speed_setpoint_mps = std::max(0.0, speed_setpoint_mps - config.limits.max_deceleration_mps2 * seconds(dt));
+  command.drive = speed_setpoint_mps > 0.0 ? drive(speed_setpoint_mps, o.now, 0.0, dt) : velocity({});
+  at_rest = has_come_to_rest(o, dt);
+  if (at_rest) enter(ThrowerState::stopped, o.now);
+  return command;
+}
+
+ThrowerCommand Thrower::Impl::stopped() const {
+  ThrowerCommand command;
+  command.gripper.release = release_ordered;
+  return command;
+}
+
+bool Thrower::Impl::has_come_to_rest(const ThrowerObservation& o, Duration dt) {
+  const bool fresh = o.wheels && o.now - o.wheels->stamp <= config.ages.wheels;
+  const PlanarTwist twist =
+      fresh ? twist_of({o.wheels->left_radps, o.wheels->right_radps}, config.base) : PlanarTwist{};
+  const bool rests =
+      fresh && std::abs(twist.forward_mps) < resting_mps && std::abs(twist.yaw_rate_radps) < resting_radps;
+  at_rest_for = rests ? at_rest_for + dt : Duration::zero();
+  return at_rest_for >= resting_time;
+}
+
+// A true speed is asked for; the wheels are told what they will measure at it. What a look teaches of the odometry's
+// scale is passed on gradually, as a small part of the allowed acceleration.
+DriveCommand Thrower::Impl::drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt) {
+  const double scale = estimate.hog_distance().at(now).scale;
+  const double change = scale_part * config.limits.max_acceleration_mps2 * seconds(dt) / order.speed_mps;
+  driven_scale += std::clamp(scale - driven_scale, -change, change);
+  const double lateral_m = estimate.lateral().lateral_m();
+  const double heading_rad = estimate.heading(now).yaw_rad;
+  const double yaw_rate_radps = tracking->step(lateral_m, heading_rad, true_speed_mps, to_release_s, dt);
+  return velocity({true_speed_mps / driven_scale, yaw_rate_radps});
+}
+
+DriveCommand Thrower::Impl::velocity(const PlanarTwist& twist) const {
+  const WheelPair wheels = wheels_of(twist, config.base);
+  return {DriveOrder::velocity, wheels.left_radps, wheels.right_radps};
+}
+
+double Thrower::Impl::spin_radps() const {
+  return order.curl == Curl::counter_clockwise ? order.spin_radps : -order.spin_radps;
+}
+
+}  // namespace hogline::servo

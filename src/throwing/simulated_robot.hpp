@@ -1,0 +1,40 @@
+// A robot on the simulated rink: the same adapters as on steel, connected to the rink's bus, port, bytes and pictures.
+#pragma once
+
+#include "hw/canopen/two_wheel_drive.hpp"
+#include "hw/dsp3000/dsp3000_gyro.hpp"
+#include "hw/modbus/modbus_arm.hpp"
+#include "hw/modbus/modbus_gripper.hpp"
+#include "hw/modbus/modbus_session.hpp"
+#include "hw/sim/rink.hpp"
+#include "hw/sim/rink_cameras.hpp"
+#include "src/config/thrower_rig.hpp"
+#include "src/throwing/thrower_devices.hpp"
+
+namespace hogline {
+
+class SimulatedRobot {
+ public:
+  /// The scenario's wheel radius, track and stone place are taken from the rig.
+  SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario);
+  SimulatedRobot(const SimulatedRobot&) = delete;
+  SimulatedRobot& operator=(const SimulatedRobot&) = delete;
+
+  ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_camera_, low_camera_}; }
+  hw::sim::Rink& rink() { return rink_; }
+  hw::sim::RenderedCamera& near_camera() { return near_camera_; }
+  hw::sim::RenderedCamera& low_camera() { return low_camera_; }
+
+ private:
+  hw::sim::Scenario scenario_;
+  hw::sim::Rink rink_;
+  hw::TwoWheelDrive drive_;
+  hw::ModbusSession session_;
+  hw::ModbusGripper gripper_;
+  hw::ModbusArm arm_;
+  hw::Dsp3000Gyro gyro_;
+  hw::sim::RenderedCamera near_camera_;
+  hw::sim::RenderedCamera low_camera_;
+};
+
+}  // namespace hogline

@@ -1,0 +1,37 @@
+// One throw on the simulated rink, from start to standstill, judged against the simulator's truth.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "src/throwing/fault.hpp"
+#include "src/throwing/simulated_robot.hpp"
+#include "src/throwing/throw_log.hpp"
+#include "src/throwing/throw_result.hpp"
+#include "src/throwing/thrower_loop.hpp"
+
+namespace hogline {
+
+struct ThrowRequest {
+  config::ThrowerRig rig;
+  hw::sim::Scenario scenario;
+  servo::ShotOrder order;
+  std::optional<Fault> fault;
+  bool follow_stone = true;  ///< go on until the released stone lies still
+};
+
+/// What there is to show of a throw.
+struct ThrowOutcome {
+  ThrowResult result;
+  ThrowLog log;
+  std::optional<Sight<vision::NearViewSketch>> near_sight;
+  std::optional<Sight<vision::LowViewSketch>> low_sight;
+};
+
+/// Called now and then with the simulated time and the state.
+using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
+
+/// The same request gives the same outcome but for wall_time_s, which is left zero.
+ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress);
+
+}  // namespace hogline

@@ -1,0 +1,174 @@
+#include "servo/hog_distance_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "servo/speed_profile.hpp"
+#include "tests/servo/rig.hpp"
+
+namespace hogline::servo::test {
+namespace {
+
+const Stamp start = Stamp(std::chrono::seconds(50));
+constexpr double plane_m = 1.0;
+
+struct Settings {
+  double scale_error = 0.01;
+  double missing = 0.1;
+  double greatest_latency_s = 0.040;
+  double sigma_m = 0.010;
+  double visible_to_m = 0.68;
+  bool outliers = false;
+};
+
+struct Result {
+  double crossing_error_s = 0.0;
+  double crossing_sigma_s = 0.0;
+  double distance_error_m = 0.0;  // at the plane
+  double distance_sigma_m = 0.0;
+  double scale_error = 0.0;
+  double scale_sigma = 0.0;
+  int gated = 0;
+};
+
+struct Look {
+  Stamp stamp;
+  Stamp arrives;
+  double hog_distance_m;
+};
+
+/// A run along the sheet from 9 m; the crossing is predicted 80 ms ahead of the plane.
+Result run(std::uint64_t seed, double speed_mps, const Settings& settings) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const OdometryConfig config = thrower_config().odometry;
+  const SpeedProfile profile(speed_mps, 1.0, 3.0);
+  const double true_scale = 1.0 + settings.scale_error;
+  const double dt = seconds(period);
+  HogDistanceFilter filter(config, start, 9.0 + 0.005 * normal(random), 0.005);
+  std::vector<Look> under_way;
+  double distance = 9.0;
+  double next_look = 0.0;
+  Result result;
+  for (int i = 1; distance > plane_m + speed_mps * 0.080; ++i) {
+    const double t = i * dt;
+    const Stamp now = start + period * i;
+    const double slip = config.noise_m_per_sqrt_m * normal(random);
+    const double before = profile.speed_mps(t - dt);
+    const double after = profile.speed_mps(t);
+    distance -= (before + after) / 2.0 * dt + slip * std::sqrt((before + after) / 2.0 * dt);
+    filter.odometry(now, after / true_scale, 0.0);
+    if (t >= next_look) {
+      next_look += 1.0 / 60.0;
+      const double wild = settings.outliers && uniform(random) < 0.1 ? 0.4 : 0.0;
+      const double latency = settings.greatest_latency_s * uniform(random);
+      const double seen = distance + settings.sigma_m * normal(random) + wild;
+      const bool missing = uniform(random) < settings.missing || distance > 6.5 || distance < settings.visible_to_m;
+      if (!missing) under_way.push_back({now, now + from_seconds(latency), seen});
+    }
+    for (auto look = under_way.begin(); look != under_way.end();) {
+      if (look->arrives > now) {
+        ++look;
+        continue;
+      }
+      filter.hog_distance(look->stamp, look->hog_distance_m, settings.sigma_m);
+      look = under_way.erase(look);
+    }
+    const auto crossing = filter.crossing(now, plane_m);
+    const HogDistanceEstimate estimate = filter.at(now);
+    if (crossing) result.crossing_error_s = seconds(crossing->stamp - now) - (distance - plane_m) / speed_mps;
+    if (crossing) result.crossing_sigma_s = crossing->sigma_s;
+    result.distance_error_m = estimate.hog_distance_m - distance;
+    result.distance_sigma_m = estimate.hog_distance_sigma_m;
+    result.scale_error = estimate.scale - true_scale;
+    result.scale_sigma = estimate.scale_sigma;
+  }
+  result.gated = filter.gated();
+  return result;
+}
+
+TEST(HogDistanceFilter, PredictsTheCrossingWithAnHonestSigma) {
+  Settings settings;
+  double square_s = 0.0;
+  double normalised_crossing = 0.0;
+  double normalised_distance = 0.0;
+  double normalised_scale = 0.0;
+  double sum_s = 0.0;
+  const int runs = 200;
+  for (int seed = 1; seed <= runs; ++seed) {
+    settings.scale_error = seed % 2 == 0 ? 0.01 : -0.01;
+    const Result r = run(seed, 1.8 + 1.7 * seed / runs, settings);
+    square_s += r.crossing_error_s * r.crossing_error_s;
+    sum_s += r.crossing_error_s;
+    normalised_crossing += std::pow(r.crossing_error_s / r.crossing_sigma_s, 2);
+    normalised_distance += std::pow(r.distance_error_m / r.distance_sigma_m, 2);
+    normalised_scale += std::pow(r.scale_error / r.scale_sigma, 2);
+  }
+  RecordProperty("crossing_rms_us", static_cast<int>(1e6 * std::sqrt(square_s / runs)));
+  EXPECT_LT(std::sqrt(square_s / runs), 0.003);
+  EXPECT_LT(std::abs(sum_s / runs), 0.0005) << "no bias";
+  EXPECT_GT(std::sqrt(normalised_crossing / runs), 0.8);
+  EXPECT_LT(std::sqrt(normalised_crossing / runs), 1.3);
+  EXPECT_GT(std::sqrt(normalised_distance / runs), 0.8);
+  EXPECT_LT(std::sqrt(normalised_distance / runs), 1.3);
+  EXPECT_LT(std::sqrt(normalised_scale / runs), 1.3);
+}
+
+TEST(HogDistanceFilter, DeadReckonsWhenTheLineHasLeftThePicture) {
+  Settings settings;
+  settings.visible_to_m = 2.0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Result blind = run(seed, 2.5, settings);
+    EXPECT_LT(std::abs(blind.distance_error_m), 4.0 * blind.distance_sigma_m);
+    EXPECT_GT(blind.distance_sigma_m, run(seed, 2.5, Settings{}).distance_sigma_m) << "and says that it knows less";
+  }
+}
+
+TEST(HogDistanceFilter, OutliersAreGatedAndCounted) {
+  Settings settings;
+  settings.outliers = true;
+  for (int seed = 1; seed <= 20; ++seed) {
+    const Result r = run(seed, 2.5, settings);
+    EXPECT_GT(r.gated, 3);
+    EXPECT_LT(std::abs(r.crossing_error_s), 0.008);
+  }
+}
+
+TEST(HogDistanceFilter, LooksActAtTheirOwnStamp) {
+  HogDistanceFilter filter(thrower_config().odometry, start, 5.0, 0.05);
+  for (int i = 1; i <= 100; ++i) filter.odometry(start + period * i, 2.0, 0.0);
+  const double before = filter.at(start + period * 100).hog_distance_m;
+  const double at_80 = filter.at(start + period * 80).hog_distance_m;
+  EXPECT_NEAR(at_80 - before, 0.2, 1e-9);
+  EXPECT_EQ(filter.hog_distance(start + period * 80, at_80, 0.005), Fusion::accepted);
+  EXPECT_NEAR(filter.at(start + period * 100).hog_distance_m, before, 1e-9) << "what was believed is confirmed";
+  EXPECT_EQ(filter.hog_distance(start + period * 80, at_80, 0.005), Fusion::duplicate);
+  EXPECT_EQ(filter.hog_distance(start - period, at_80, 0.005), Fusion::too_old);
+}
+
+TEST(HogDistanceFilter, ARunAtAnAngleCoversLessOfTheSheet) {
+  HogDistanceFilter filter(thrower_config().odometry, start, 5.0, 0.01);
+  filter.odometry(start + period, 2.0, 0.3);
+  EXPECT_NEAR(filter.at(start + period).speed_mps, 2.0 * std::cos(0.3), 1e-12);
+}
+
+TEST(HogDistanceFilter, ABodyThatStandsCrossesNothing) {
+  HogDistanceFilter filter(thrower_config().odometry, start, 5.0, 0.01);
+  EXPECT_FALSE(filter.crossing(start, plane_m).has_value());
+  filter.odometry(start + period, -1.0, 0.0);
+  EXPECT_FALSE(filter.crossing(start + period, plane_m).has_value()) << "nor one that moves away";
+}
+
+TEST(HogDistanceFilter, APlaneBehindHasBeenCrossedBefore) {
+  HogDistanceFilter filter(thrower_config().odometry, start, 0.8, 0.01);
+  for (int i = 1; i <= 10; ++i) filter.odometry(start + period * i, 2.0, 0.0);
+  EXPECT_LT(filter.crossing(start + period * 10, plane_m)->stamp, start + period * 10);
+}
+
+}  // namespace
+}  // namespace hogline::servo::test

@@ -1,0 +1,114 @@
+#include "vision/detect/house_segmentation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/geometry/sheet.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double cell_m = 0.05;
+constexpr double nearest_m = 0.2;  // ice ahead of the body's origin
+constexpr double deepest_m = 8.0;  // the house ends before
+constexpr int kernel_cells = 41;   // 2 m: there is white ice within it wherever one stands in a house
+constexpr int attempts = 3;
+
+double right_of(const ClassifiedLine& line, double ahead_m) {
+  return (line.intercept_m - std::sin(line.slope_rad) * ahead_m) / std::cos(line.slope_rad);
+}
+
+struct Samples {
+  cv::Mat light;   // CV_32FC3 linear, the grid
+  cv::Mat inside;  // CV_8UC1
+};
+
+Samples sample(const cv::Mat& image, const ResponseCurve& response, const GroundView& view, const HouseArea& area,
+               const IceGrid& grid, int rows, int columns) {
+  Samples s{cv::Mat(rows, columns, CV_32FC3, cv::Scalar::all(0)), cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))};
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const Eigen::Vector2d g = grid.at(c, r);
+      if (area.left && g.x() < right_of(*area.left, g.y()) + 0.05) continue;
+      if (area.right && g.x() > right_of(*area.right, g.y()) - 0.05) continue;
+      const auto pixel = view.pixel_of_ground(g);
+      if (!pixel || !view.lens().in_picture(*pixel, 1.0)) continue;
+      const std::uint8_t* p = image.ptr<std::uint8_t>(static_cast<int>(std::lround(pixel->y()))) +
+                              static_cast<int>(std::lround(pixel->x())) * image.channels();
+      cv::Vec3f& out = s.light.at<cv::Vec3f>(r, c);
+      for (int k = 0; k < 3; ++k) out[k] = response.linear(p[image.channels() == 3 ? k : 0]);
+      s.inside.at<std::uint8_t>(r, c) = 255;
+    }
+  }
+  return s;
+}
+
+// Colour relative to the white ice near by, so that shade and vignetting do not make colours of their own.
+cv::Mat relative_to_ice(const Samples& s) {
+  cv::Mat ice;
+  cv::dilate(s.light, ice, cv::getStructuringElement(cv::MORPH_RECT, {kernel_cells, kernel_cells}));
+  cv::blur(ice, ice, {kernel_cells, kernel_cells});
+  cv::Mat relative(s.light.size(), CV_32FC3);
+  for (int r = 0; r < s.light.rows; ++r) {
+    for (int c = 0; c < s.light.cols; ++c) {
+      const cv::Vec3f& light = s.light.at<cv::Vec3f>(r, c);
+      const cv::Vec3f& white = ice.at<cv::Vec3f>(r, c);
+      for (int k = 0; k < 3; ++k) {
+        // The square root spreads dark paints apart and evens the noise out.
+        relative.at<cv::Vec3f>(r, c)[k] = std::sqrt(std::clamp(light[k] / std::max(white[k], 1e-4F), 0.0F, 1.5F));
+      }
+    }
+  }
+  return relative;
+}
+
+}  // namespace
+
+std::optional<HouseSegmentation> segment_house(const cv::Mat& image, const ResponseCurve& response,
+                                               const GroundView& view, const HouseArea& area) {
+  const double depth_m = std::min(deepest_m, area.hog ? area.hog->intercept_m - 0.3 : deepest_m);
+  const double half_width_m = rules::max_width_m / 2.0 + 1.5;
+  const IceGrid grid{{-half_width_m, nearest_m}, cell_m};
+  const int columns = static_cast<int>(2.0 * half_width_m / cell_m) + 1;
+  const int rows = static_cast<int>((depth_m - nearest_m) / cell_m);
+  if (rows < kernel_cells) return std::nullopt;
+  const Samples s = sample(image, response, view, area, grid, rows, columns);
+  const cv::Mat relative = relative_to_ice(s);
+
+  std::vector<cv::Vec3f> colours;
+  std::vector<cv::Point> cells;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      if (s.inside.at<std::uint8_t>(r, c) == 0) continue;
+      colours.push_back(relative.at<cv::Vec3f>(r, c));
+      cells.emplace_back(c, r);
+    }
+  }
+  if (colours.size() < 2000) return std::nullopt;
+
+  cv::Mat labels;
+  cv::Mat centres;
+  cv::theRNG().state = 0x9e3779b97f4a7c15ULL;  // the same picture gives the same answer
+  cv::kmeans(cv::Mat(static_cast<int>(colours.size()), 3, CV_32F, colours.data()), 3, labels,
+             {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 20, 0.005}, attempts, cv::KMEANS_PP_CENTERS, centres);
+  std::array<int, 3> count{};
+  for (int i = 0; i < labels.rows; ++i) ++count[static_cast<std::size_t>(labels.at<int>(i))];
+  const auto lightness = [&](int k) { return cv::sum(centres.row(k))[0]; };
+  int ice = 0;
+  for (int k = 1; k < 3; ++k) ice = lightness(k) > lightness(ice) ? k : ice;
+  int outer = -1;
+  for (int k = 0; k < 3; ++k) {
+    if (k != ice && (outer < 0 || count[static_cast<std::size_t>(k)] > count[static_cast<std::size_t>(outer)]))
+      outer = k;
+  }
+  if (cv::norm(centres.row(outer) - centres.row(ice)) < 0.08) return std::nullopt;
+
+  HouseSegmentation segmentation{grid, cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (labels.at<int>(static_cast<int>(i)) == outer) segmentation.outer_ring.at<std::uint8_t>(cells[i]) = 255;
+  }
+  return segmentation;
+}
+
+}  // namespace hogline::vision

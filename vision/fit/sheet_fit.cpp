@@ -1,0 +1,364 @@
+#include "vision/fit/sheet_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vision/fit/joint_solver.hpp"
+#include "vision/fit/sideline_scan.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
+
+// Limits beyond which an estimate tells nothing: the fit is then "not determined".
+constexpr double most_sigma_m = 0.25;
+constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
+constexpr double most_residual_px = 1.5;
+
+// Prior of a paint's width about what the scan saw, and of a divider's place.
+constexpr double paint_sigma_m = 0.015;
+constexpr double given_width_sigma_m = 0.02;
+
+// Error common to a whole feature: paint against the rules, lens against its calibration.
+constexpr double shared_error_px = 0.03;
+
+// A start that is wrong by `start_position_m` and `start_angle_rad` moves a middling site by about `usual_search_px`;
+// near the camera it moves it further, and the search goes along.
+constexpr double usual_search_px = 20.0;
+constexpr double start_position_m = 0.06;
+constexpr double start_angle_rad = 0.015;
+constexpr double most_search_px = 70.0;
+
+double search_of(const PlannedSite& site, double search_px) {
+  const double moved = 2.0 * std::hypot(start_position_m * site.along.segment<2>(0).norm(),
+                                        start_angle_rad * site.along.segment<3>(3).norm());
+  return std::clamp(moved * search_px / usual_search_px, 0.5 * search_px,
+                    std::max(search_px, most_search_px * search_px / usual_search_px));
+}
+
+ParameterVector start_sigma(double search_px) {
+  ParameterVector sigma = ParameterVector::Constant(held);
+  sigma.segment<3>(0).setConstant(start_position_m * search_px / usual_search_px);
+  sigma.segment<3>(3).setConstant(start_angle_rad * search_px / usual_search_px);
+  return sigma;
+}
+
+ParameterRow unit(int k) { return ParameterRow::Unit(k); }
+
+}  // namespace
+
+struct SheetFit::Impl {
+  explicit Impl(const CameraSetup& given)
+      : setup(given), lens(given.intrinsics), response(given.gamma), bRc(bMc(given.mount).linear()) {
+    sites.reserve(2000);
+    found.reserve(2000);
+    wide.reserve(1000);
+    scratch.reserve(2000);
+    result.sites.reserve(2000);
+    result.features.reserve(paint_feature_count);
+  }
+
+  const SheetFitResult& fit(const cv::Mat& image, const SheetFitStart& start);
+
+  std::string unusable(const cv::Mat& image, const SheetFitStart& start) const;
+  SheetCamera camera() const { return {lens, state.eMc, Ice{state.paint_depth_m, setup.ice.refractive_index}}; }
+  void begin(const SheetFitStart& start);
+  Prior prior(const SheetFitStart& start) const;
+  void plan(const SheetFitStart& start, double spacing_px);
+  bool approach(const PictureLight& light, const SheetFitStart& start);
+  void look(const PictureLight& light, double search_px, int half_breadth);
+  void drop_odd_colours();
+  bool move_by(const ParameterVector& change);
+  void find_sidelines(const PictureLight& light, const SheetFitStart& start);
+  void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
+              int half_breadth);
+  void judge(const SheetFitStart& start);
+  void report_width();
+  void report_sites();
+  const SheetFitResult& refuse(std::string reason);
+
+  CameraSetup setup;
+  Lens lens;
+  ResponseCurve response;
+  Eigen::Matrix3d bRc;  // b from c, as mounted
+
+  FitState state;
+  ParameterMatrix covariance = ParameterMatrix::Zero();
+  std::vector<PlannedSite> sites;
+  std::vector<Candidates> wide;
+  std::vector<SiteMeasurement> found;
+  std::vector<double> scratch;
+  CloseStep step;
+  Profile profile;
+  SheetFitResult result;
+};
+
+const SheetFitResult& SheetFit::Impl::refuse(std::string reason) {
+  result.ok = false;
+  result.reason = std::move(reason);
+  return result;
+}
+
+std::string SheetFit::Impl::unusable(const cv::Mat& image, const SheetFitStart& start) const {
+  const bool colour = image.type() == CV_8UC3;
+  if (image.empty() || (!colour && image.type() != CV_8UC1)) return "the picture is not 8-bit grey or BGR";
+  if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
+    return "the picture is not of the camera's size";
+  }
+  if (!is_finite(start.eMc) || !(start.eMc.translation().z() > 0.02)) return "no usable start";
+  return {};
+}
+
+void SheetFit::Impl::begin(const SheetFitStart& start) {
+  result.ok = false;
+  result.reason.clear();
+  result.sheet_width_m.reset();
+  result.sites.clear();
+  result.features.clear();
+  result.sites_tried = result.sites_used = 0;
+  state = FitState{};
+  state.eMc = start.eMc;
+  state.paint_depth_m = setup.ice.paint_depth_m;
+  if (!start.sheet_width_m || setup.sheet.sideline != SidelineKind::line) return;
+  for (Sideline& line : state.sidelines) {
+    line.known = true;
+    line.edge_m = 0.5 * *start.sheet_width_m;
+  }
+}
+
+// What is known beforehand, about the present state.
+Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
+  Prior p;
+  const Eigen::Matrix3d eRb = state.eMc.linear() * bRc.transpose();
+  const double roll = std::atan2(eRb(2, 1), eRb(2, 2));
+  const double pitch = std::atan2(-eRb(2, 0), std::hypot(eRb(2, 1), eRb(2, 2)));
+  ParameterRow row = ParameterRow::Zero();
+  const auto turn_about = [&](int axis) {
+    row.setZero();
+    row.segment<3>(3) = bRc.row(axis);
+    return row;
+  };
+  if (start.roll_sigma_rad > 0.0) p.add(turn_about(0), -roll, start.roll_sigma_rad);
+  if (start.pitch_sigma_rad > 0.0) p.add(turn_about(1), -pitch, start.pitch_sigma_rad);
+  if (start.height_sigma_m > 0.0) {
+    row.setZero();
+    row.segment<3>(0) = state.eMc.linear().row(2);
+    p.add(row, setup.mount.z_m - state.eMc.translation().z(), start.height_sigma_m);
+  }
+  // A step's own length is bounded, so that what is not seen stays where it was.
+  for (int k = 0; k < 3; ++k) p.add(unit(k), 0.0, 2.0);
+  for (int k = 3; k < 6; ++k) p.add(unit(k), 0.0, 0.5);
+  for (int side = 0; side < 2; ++side) {
+    const Sideline& line = state.sidelines[static_cast<std::size_t>(side)];
+    const int edge = side == 0 ? parameter::left_edge : parameter::right_edge;
+    p.add(unit(edge), 0.0, line.known ? 0.3 : held);
+    p.add(unit(edge + 1), 0.0, line.known && line.is_line ? paint_sigma_m : held);
+  }
+  if (start.sheet_width_m && state.sidelines[0].known && state.sidelines[1].known) {
+    p.add(unit(parameter::left_edge) + unit(parameter::right_edge),
+          *start.sheet_width_m - state.sidelines[0].edge_m - state.sidelines[1].edge_m, given_width_sigma_m);
+  }
+  const double depth_sigma = start.paint_depth_sigma_m > 0.0 ? start.paint_depth_sigma_m : held;
+  p.add(unit(parameter::depth), setup.ice.paint_depth_m - state.paint_depth_m, depth_sigma);
+  return p;
+}
+
+void SheetFit::Impl::plan(const SheetFitStart& start, double spacing_px) {
+  SitePlan how;
+  how.spacing_px = spacing_px;
+  how.travel_m = start.travel_m;
+  sites.clear();
+  plan_sites(camera(), state, how, sites);
+}
+
+bool SheetFit::Impl::move_by(const ParameterVector& change) {
+  if (!change.allFinite()) return false;
+  const FitState next = moved(state, change);
+  if (!is_finite(next.eMc) || !(next.eMc.translation().z() > 0.05)) return false;
+  state = next;
+  return true;
+}
+
+// From the start to within a few pixels.
+bool SheetFit::Impl::approach(const PictureLight& light, const SheetFitStart& start) {
+  for (double search_px = start.search_px; search_px > 2.5; search_px *= 0.5) {
+    plan(start, 24.0);
+    wide.clear();
+    for (PlannedSite& site : sites) {
+      site.search_px = search_of(site, search_px);
+      wide.push_back(look_widely(light, site, site.search_px, profile));
+    }
+    const WideStep found_step = step_widely(sites, wide, prior(start), start_sigma(search_px));
+    if (found_step.agreeing < 8) {
+      refuse("too little paint was found near the start");
+      return false;
+    }
+    if (!move_by(found_step.change)) {
+      refuse("the fit ran away");
+      return false;
+    }
+  }
+  return true;
+}
+
+void SheetFit::Impl::look(const PictureLight& light, double search_px, int half_breadth) {
+  found.clear();
+  for (const PlannedSite& site : sites) found.push_back(look_closely(light, site, search_px, half_breadth, profile));
+}
+
+// A ring keeps its colours all round: an edge of other colours is a stone, a shoe or a lamp.
+void SheetFit::Impl::drop_odd_colours() {
+  for (int f = 0; f < paint_feature_count; ++f) {
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (sites[i].polarity_group == f && found[i].found)
+        mean += Eigen::Map<const Eigen::Vector3f>(found[i].colour.data());
+    }
+    if (mean.isZero()) continue;
+    mean.normalize();
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (sites[i].polarity_group != f || !found[i].found) continue;
+      if (mean.dot(Eigen::Map<const Eigen::Vector3f>(found[i].colour.data())) < 0.8F) found[i].found = false;
+    }
+  }
+}
+
+void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitStart& start) {
+  if (setup.sheet.sideline == SidelineKind::none) return;
+  ScanRange range{0.5 * rules::min_width_m - 0.05, 0.5 * rules::max_width_m + 0.05};
+  if (start.sheet_width_m) range = {0.5 * *start.sheet_width_m - 0.04, 0.5 * *start.sheet_width_m + 0.04};
+  const bool bumper = setup.sheet.sideline == SidelineKind::bumper;
+  const SheetCamera paint = camera();
+  const SheetCamera surface(lens, state.eMc, Ice{0.0, setup.ice.refractive_index});
+  for (int side = 0; side < 2; ++side) {
+    Sideline& line = state.sidelines[static_cast<std::size_t>(side)];
+    line = scan_sideline(light, bumper ? surface : paint, side == 0 ? -1.0 : 1.0, !bumper, range);
+    line.moves_camera = setup.sheet.sideline != SidelineKind::unknown;
+  }
+}
+
+void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
+                            int half_breadth) {
+  plan(start, spacing_px);
+  look(light, search_px, half_breadth);
+  drop_odd_colours();
+  step_closely(sites, found, prior(start), step, scratch);
+}
+
+void SheetFit::Impl::report_width() {
+  const auto& left = state.sidelines[0];
+  const auto& right = state.sidelines[1];
+  std::array<int, 2> used{};
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (sites[i].feature >= left_sideline_feature && step.weight[i] > 0.0) {
+      ++used[static_cast<std::size_t>(sites[i].feature - left_sideline_feature)];
+    }
+  }
+  if (!left.known || !right.known || used[0] < 5 || used[1] < 5) return;
+  result.sheet_width_m = left.edge_m + right.edge_m;
+  const double variance = covariance(parameter::left_edge, parameter::left_edge) +
+                          covariance(parameter::right_edge, parameter::right_edge) +
+                          2.0 * covariance(parameter::left_edge, parameter::right_edge);
+  result.sheet_width_sigma_m = std::sqrt(std::max(variance, 0.0));
+}
+
+void SheetFit::Impl::report_sites() {
+  const auto& features = paint_features();
+  std::array<int, paint_feature_count> place{};
+  place.fill(-1);
+  double square = 0.0;
+  double weights = 0.0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const auto f = static_cast<std::size_t>(sites[i].feature);
+    if (place[f] < 0) {
+      place[f] = static_cast<int>(result.features.size());
+      result.features.push_back({std::string(features[f].name), 0, 0});
+    }
+    FittedFeature& feature = result.features[static_cast<std::size_t>(place[f])];
+    const bool used = step.weight[i] > 0.0;
+    ++feature.sites_tried;
+    feature.sites_used += used ? 1 : 0;
+    result.sites.push_back(
+        {sites[i].pixel, sites[i].normal, step.residual_px[i], used ? step.weight[i] : 0.0, place[f]});
+    square += step.weight[i] * step.residual_px[i] * step.residual_px[i];
+    weights += step.weight[i];
+    result.sites_used += used ? 1 : 0;
+  }
+  result.sites_tried = static_cast<int>(sites.size());
+  result.residual_px = weights > 0.0 ? std::sqrt(square / weights) : 0.0;
+}
+
+void SheetFit::Impl::judge(const SheetFitStart& start) {
+  covariance = covariance_of(sites, found, step, prior(start), shared_error_px);
+  result.eMc = state.eMc;
+  result.covariance = covariance.topLeftCorner<6, 6>();
+  result.body = planar_body(state.eMc, setup.mount);
+  result.paint_depth_m = state.paint_depth_m;
+
+  // The body by the camera's twist: turning about the camera moves the body about it.
+  const Eigen::Matrix3d eRc = state.eMc.linear();
+  Eigen::Matrix<double, 3, 6> by_twist = Eigen::Matrix<double, 3, 6>::Zero();  // x, y, yaw
+  const Eigen::Matrix3d eRb = eRc * bRc.transpose();
+  const double forward2 = eRb(0, 0) * eRb(0, 0) + eRb(1, 0) * eRb(1, 0);
+  const Eigen::RowVector3d yaw_by_turn =
+      (Eigen::RowVector3d(0.0, 0.0, 1.0) - eRb(2, 0) / forward2 * Eigen::RowVector3d(eRb(0, 0), eRb(1, 0), 0.0)) * eRc;
+  by_twist.block<2, 3>(0, 0) = eRc.topRows<2>();
+  by_twist.block<1, 3>(2, 3) = yaw_by_turn;
+  const double c = std::cos(result.body.yaw_rad);
+  const double s = std::sin(result.body.yaw_rad);
+  by_twist.block<1, 3>(0, 3) = (c * setup.mount.x_m - s * setup.mount.y_m) * yaw_by_turn;
+  by_twist.block<1, 3>(1, 3) = (s * setup.mount.x_m + c * setup.mount.y_m) * yaw_by_turn;
+  const Eigen::Matrix3d planar = by_twist * result.covariance * by_twist.transpose();
+  result.sigma = {std::sqrt(planar(0, 0)), std::sqrt(planar(1, 1)), std::sqrt(planar(2, 2))};
+  result.hog_distance_sigma_m = result.sigma.y_m;
+  report_width();
+  report_sites();
+
+  if (!covariance.allFinite()) {
+    refuse("the fit is not determined");
+  } else if (result.sites_used < 12) {
+    refuse("too few places of paint were found");
+  } else if (result.residual_px > most_residual_px) {
+    refuse("what was found does not fit a sheet");
+  } else if (!(result.sigma.y_m < most_sigma_m)) {
+    refuse("nothing in view tells the distance along the sheet");
+  } else if (!(result.sigma.x_m < most_sigma_m) || !(result.sigma.yaw_rad < most_sigma_yaw_rad)) {
+    refuse("nothing in view tells the place across the sheet or the direction");
+  } else {
+    result.ok = true;
+  }
+}
+
+const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitStart& start) {
+  begin(start);
+  if (std::string why = unusable(image, start); !why.empty()) return refuse(std::move(why));
+  const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, response};
+
+  if (!approach(light, start)) return result;
+
+  refine(light, start, 24.0, 3.0, 1);
+  if (!move_by(step.change)) return refuse("the fit ran away");
+
+  find_sidelines(light, start);
+  refine(light, start, 18.0, 2.5, 1);
+  if (!move_by(step.change)) return refuse("the fit ran away");
+
+  refine(light, start, 12.0, 1.5, 2);
+  if (!move_by(step.change)) return refuse("the fit ran away");
+  judge(start);
+  return result;
+}
+
+SheetFit::SheetFit(const CameraSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
+SheetFit::~SheetFit() = default;
+SheetFit::SheetFit(SheetFit&&) noexcept = default;
+SheetFit& SheetFit::operator=(SheetFit&&) noexcept = default;
+
+const SheetFitResult& SheetFit::fit(const cv::Mat& image, const SheetFitStart& start) {
+  return impl_->fit(image, start);
+}
+
+}  // namespace hogline::vision

@@ -1,0 +1,22 @@
+// Finding the sidelines' distance from the centre line once the camera's pose is nearly known: the sheet's cross
+// section, the median over many rows, so that people, stones and lamps in some of them do not count.
+#pragma once
+
+#include "vision/fit/fit_parameters.hpp"
+#include "vision/fit/site_measurement.hpp"
+#include "vision/geometry/sheet_camera.hpp"
+
+namespace hogline::vision {
+
+/// Between which distances the inner edge is looked for.
+struct ScanRange {
+  double begin_m;
+  double end_m;
+};
+
+/// The innermost change of light of the cross section on one side (-1 left, 1 right). `known == false` when there is
+/// none or too few rows are in view. `as_line`: paint, with its outer edge; otherwise a divider's foot.
+Sideline scan_sideline(const PictureLight& light, const SheetCamera& camera, double side, bool as_line,
+                       const ScanRange& range);
+
+}  // namespace hogline::vision

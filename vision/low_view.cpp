@@ -1,0 +1,187 @@
+#include "vision/low_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/detect/edge_points.hpp"
+#include "vision/detect/h_choice.hpp"
+#include "vision/detect/h_lines.hpp"
+#include "vision/detect/h_ridges.hpp"
+#include "vision/detect/line_candidates.hpp"
+#include "vision/detect/line_classes.hpp"
+#include "vision/fit/sheet_fit.hpp"
+#include "vision/low_view_sketch.hpp"
+#include "vision/near_view_sketch.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double range_m = 11.0;  // of the hog line from the body
+constexpr double max_yaw_rad = 0.262;
+constexpr std::size_t most_lines = 40;
+constexpr std::size_t most_hog_lines = 8;
+constexpr std::size_t most_tries = 3;
+constexpr double pitch_sigma_rad = 0.0045;  // the running body rocks by tenths of a degree
+constexpr double roll_sigma_rad = 0.0017;
+constexpr double height_sigma_m = 0.003;
+
+/// A pose to start the joint fit from.
+struct Start {
+  PlanarPose body;
+  std::optional<double> width_m;
+  double search_px;
+};
+
+}  // namespace
+
+struct LowView::Impl {
+  explicit Impl(const CameraSetup& camera_setup)
+      : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
+
+  std::string unusable(const cv::Mat& image) const;
+  CrossRange hog_range(const LowViewPrediction& prediction) const;
+  HKnowledge knowledge(const LowViewPrediction& prediction) const;
+  SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
+  std::string doubt(const SheetFitResult& result, const Start& start) const;
+  SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
+  std::string why_no_hog_line(int too_thin) const;
+
+  CameraSetup setup;
+  GroundView view;
+  HogRidgeFinder ridge_finder;
+  SheetFit fit;
+};
+
+LowView::LowView(const CameraSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
+LowView::~LowView() = default;
+LowView::LowView(LowView&&) noexcept = default;
+LowView& LowView::operator=(LowView&&) noexcept = default;
+
+SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowViewPrediction& prediction,
+                                  LowViewSketch* sketch) {
+  SheetPosePercept nothing;
+  nothing.stamp = stamp;
+  nothing.reason = impl_->unusable(image);
+  if (!nothing.reason.empty()) return nothing;
+
+  const auto ridges = impl_->ridge_finder.find(image);
+  int too_thin = 0;
+  const auto hog_lines = find_cross_candidates(ridges, impl_->ridge_finder, impl_->view, impl_->hog_range(prediction),
+                                               most_hog_lines, &too_thin);
+  nothing.reason = impl_->why_no_hog_line(too_thin);
+  if (hog_lines.empty()) return nothing;
+
+  const auto points = find_edge_points(image, impl_->view, {.range_m = range_m});
+  const auto lines = find_line_candidates(points, impl_->view.pixels_per_plane_unit(), most_lines);
+  const LineClasses classes = classify(lines, impl_->view, {});
+  if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
+
+  const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction));
+  nothing.reason = "no line that runs down-ice goes with what may be the hog line";
+  for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
+    const SheetPosePercept seen = impl_->refine(image, {shapes[i].body, shapes[i].width_m, 12.0}, stamp, sketch);
+    if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
+    if (seen.ok) return seen;
+    if (i == 0) nothing.reason = seen.reason;
+  }
+  return nothing;
+}
+
+std::string LowView::Impl::unusable(const cv::Mat& image) const {
+  if (image.empty()) return "the picture is empty";
+  if (image.type() != CV_8UC3 && image.type() != CV_8UC1) return "the picture is not 8 bits a channel, colour or grey";
+  if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
+    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
+           std::to_string(setup.intrinsics.width_px) + "x" + std::to_string(setup.intrinsics.height_px);
+  }
+  return {};
+}
+
+CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {
+  CrossRange range{-max_yaw_rad, max_yaw_rad, 0.3, range_m};
+  if (!prediction.body) return range;
+  const double distance_m = rules::tee_to_hog_m - prediction.body->y_m;
+  const double slack_m =
+      0.1 + 4.0 * prediction.body_sigma.y_m + 3.0 * pitch_sigma_rad * distance_m * distance_m / setup.mount.z_m;
+  const double slack_rad = 0.02 + 4.0 * prediction.body_sigma.yaw_rad;
+  range.min_distance_m = std::max(range.min_distance_m, distance_m - slack_m);
+  range.max_distance_m = std::min(range.max_distance_m, distance_m + slack_m);
+  range.min_yaw_rad = std::max(range.min_yaw_rad, prediction.body->yaw_rad - slack_rad);
+  range.max_yaw_rad = std::min(range.max_yaw_rad, prediction.body->yaw_rad + slack_rad);
+  return range;
+}
+
+HKnowledge LowView::Impl::knowledge(const LowViewPrediction& prediction) const {
+  HKnowledge known;
+  known.width_m = prediction.sheet_width_m.value_or(setup.sheet.width_m);
+  known.width_sigma_m = prediction.sheet_width_m ? 0.03 : 0.3;
+  known.body = prediction.body;
+  known.body_sigma = prediction.body_sigma;
+  known.camera_height_m = setup.mount.z_m;
+  return known;
+}
+
+SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch) {
+  SheetFitStart fit_start;
+  fit_start.eMc = eMb(start.body) * bMc(setup.mount);
+  fit_start.search_px = start.search_px;
+  fit_start.sheet_width_m = start.width_m;
+  fit_start.pitch_sigma_rad = pitch_sigma_rad;
+  fit_start.roll_sigma_rad = roll_sigma_rad;
+  fit_start.height_sigma_m = height_sigma_m;
+  const SheetFitResult& result = fit.fit(image, fit_start);
+  SheetPosePercept seen;
+  seen.stamp = stamp;
+  seen.reason = result.ok ? doubt(result, start) : result.reason;
+  if (!seen.reason.empty()) return seen;
+  if (sketch != nullptr) sketch->model = model_lines(result.eMc, setup, result.sheet_width_m);
+  return percept(result, stamp);
+}
+
+// Why a fit that converged is not believed.
+std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
+  const Eigen::Vector3d up = bMc(setup.mount).linear() * result.eMc.linear().row(2).transpose();
+  if (std::abs(up.x()) > 6.0 * pitch_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
+    return "the fitted tilt is too far from the mount's";
+  }
+  const double far_m = rules::tee_to_hog_m - start.body.y_m;
+  const double slack_m = 0.05 + 4.0 * pitch_sigma_rad * far_m * far_m / setup.mount.z_m;
+  if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
+      std::abs(result.body.yaw_rad - start.body.yaw_rad) > 0.05) {
+    return "the fit went away from the H that was seen";
+  }
+  int others = 0;
+  for (const FittedFeature& f : result.features) {
+    if (f.name != "hog_line") others += f.sites_used;
+    if (f.name == "hog_line" && (f.sites_used < 12 || f.sites_used < 0.3 * f.sites_tried)) {
+      return "the hog line is not where the pose puts it";
+    }
+  }
+  if (others < 12) return "nothing but the hog line is where the pose puts it";
+  return {};
+}
+
+SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stamp) const {
+  SheetPosePercept p;
+  p.ok = true;
+  p.stamp = stamp;
+  p.body = result.body;
+  p.sigma = result.sigma;
+  p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
+  p.hog_distance_sigma_m = result.hog_distance_sigma_m;
+  p.sheet_width_m = result.sheet_width_m;
+  p.eMc = row_major(result.eMc);
+  p.residual_px = result.residual_px;
+  p.sites_used = result.sites_used;
+  p.sites_tried = result.sites_tried;
+  for (const FittedFeature& f : result.features) {
+    if (f.sites_used > 0) p.features.push_back(f.name);
+  }
+  return p;
+}
+
+std::string LowView::Impl::why_no_hog_line(int too_thin) const {
+  return too_thin > 0 ? "lines lie across the ice, but none as wide as the hog line" : "nothing lies across the ice";
+}
+
+}  // namespace hogline::vision
