@@ -193,7 +193,8 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
 }
 
 void require_sections(const json& root, const Document& document) {
-  for (const char* name : {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm", "gyro"}) {
+  for (const char* name :
+       {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm", "gyro", "looks"}) {
     if (!root.contains(name)) {
       throw ConfigError(document.file, 0, name, "",
                         "missing; a throw needs this section (see config/rigs/practice.yaml)");
@@ -236,6 +237,7 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
               .latency = gyro.duration("latency_s"),
               .silence_limit = gyro.duration("silence_limit_s"),
               .max_rate_radps = gyro.radians("max_rate_degps")};
+  rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
   return rig;
 }
 

@@ -11,6 +11,7 @@
 #include "hw/modbus/modbus_session.hpp"
 #include "servo/thrower_config.hpp"
 #include "src/config/rig.hpp"
+#include "src/throwing/look_times.hpp"
 
 namespace hogline::config {
 
@@ -22,6 +23,7 @@ struct ThrowerRig {
   hw::ModbusGripperConfig gripper;
   hw::AxisConfig arm;
   hw::Dsp3000Config gyro;
+  LookTimes looks;
 };
 
 /// Reads and checks a rig file with every section that a throw needs. Throws ConfigError.

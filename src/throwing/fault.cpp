@@ -7,8 +7,8 @@
 namespace hogline {
 
 const std::vector<std::string>& fault_names() {
-  static const std::vector<std::string> names{"drive-heartbeat", "drive-dies",   "camera-freeze", "camera-stops",
-                                              "camera-black",    "modbus-stop",  "modbus-stall",  "gyro-silent",
+  static const std::vector<std::string> names{"drive-heartbeat", "drive-dies",  "camera-freeze", "camera-stops",
+                                              "camera-black",    "modbus-stop", "modbus-stall",  "gyro-silent",
                                               "gyro-invalid",    "can-down"};
   return names;
 }
@@ -30,16 +30,36 @@ void inject(FaultKind kind, SimulatedRobot& robot) {
   using hw::sim::RenderedCamera;
   hw::sim::Rink& rink = robot.rink();
   switch (kind) {
-    case FaultKind::drive_heartbeat: rink.left_drive().communication().faults.heartbeat_stopped = true; break;
-    case FaultKind::drive_dies: rink.left_drive().kill(hw::sim::AxisPower::braked); break;  // its spring-applied brake falls in
-    case FaultKind::camera_freeze: robot.low_camera().inject(RenderedCamera::Fault::frozen); break;
-    case FaultKind::camera_stops: robot.low_camera().inject(RenderedCamera::Fault::stopped); break;
-    case FaultKind::camera_black: robot.low_camera().inject(RenderedCamera::Fault::black); break;
-    case FaultKind::modbus_stop: rink.modbus().stop(); break;
-    case FaultKind::modbus_stall: rink.modbus().stall(); break;
-    case FaultKind::gyro_silent: rink.gyro().set_silent(true); break;
-    case FaultKind::gyro_invalid: rink.gyro().set_valid(false); break;
-    case FaultKind::can_down: rink.bus().set_up(false); break;
+    case FaultKind::drive_heartbeat:
+      rink.left_drive().communication().faults.heartbeat_stopped = true;
+      break;
+    case FaultKind::drive_dies:
+      rink.left_drive().kill(hw::sim::AxisPower::braked);
+      break;  // its spring-applied brake falls in
+    case FaultKind::camera_freeze:
+      robot.low_camera().inject(RenderedCamera::Fault::frozen);
+      break;
+    case FaultKind::camera_stops:
+      robot.low_camera().inject(RenderedCamera::Fault::stopped);
+      break;
+    case FaultKind::camera_black:
+      robot.low_camera().inject(RenderedCamera::Fault::black);
+      break;
+    case FaultKind::modbus_stop:
+      rink.modbus().stop();
+      break;
+    case FaultKind::modbus_stall:
+      rink.modbus().stall();
+      break;
+    case FaultKind::gyro_silent:
+      rink.gyro().set_silent(true);
+      break;
+    case FaultKind::gyro_invalid:
+      rink.gyro().set_valid(false);
+      break;
+    case FaultKind::can_down:
+      rink.bus().set_up(false);
+      break;
   }
 }
 

@@ -10,7 +10,18 @@
 
 namespace hogline {
 
-enum class FaultKind { drive_heartbeat, drive_dies, camera_freeze, camera_stops, camera_black, modbus_stop, modbus_stall, gyro_silent, gyro_invalid, can_down };
+enum class FaultKind {
+  drive_heartbeat,
+  drive_dies,
+  camera_freeze,
+  camera_stops,
+  camera_black,
+  modbus_stop,
+  modbus_stall,
+  gyro_silent,
+  gyro_invalid,
+  can_down
+};
 
 struct Fault {
   FaultKind kind = FaultKind::drive_heartbeat;

@@ -22,7 +22,8 @@ class Judge {
 
   void watch(const hw::sim::Truth& truth, const servo::Thrower& thrower) {
     const ThrowerState state = thrower.state();
-    if (!line_start_ && state != ThrowerState::unfold && state != ThrowerState::measure && state != ThrowerState::align) {
+    if (!line_start_ && state != ThrowerState::unfold && state != ThrowerState::measure &&
+        state != ThrowerState::align) {
       line_start_ = truth.body;
     }
     const double nearest_m = vision::rules::tee_to_hog_m - request_.scenario.stone.radius_m;
@@ -43,7 +44,8 @@ class Judge {
     if (!truth.held) r.rest = truth.stone;
     r.sim_time_s = seconds(now - start_);
     r.ok = r.release && !r.hog_line_violation && !r.stone_burned && !r.abort && thrower.finished() &&
-           std::abs(r.release->hog_distance_m - r.release->target_hog_distance_m) <= request_.rig.thrower.release.tolerance_m;
+           std::abs(r.release->hog_distance_m - r.release->target_hog_distance_m) <=
+               request_.rig.thrower.release.tolerance_m;
     return r;
   }
 
@@ -121,7 +123,8 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   boot(robot, period);
 
   const Stamp start = robot.rink().now();
-  ThrowerLoop loop(robot.devices(), ThrowerEyes(*request.rig.rig.near_camera, *request.rig.rig.low_camera),
+  ThrowerLoop loop(robot.devices(),
+                   ThrowerEyes(*request.rig.rig.near_camera, *request.rig.rig.low_camera, request.rig.looks),
                    servo::Thrower(request.rig.thrower, request.order, start));
   Judge judge(request, start);
   ThrowOutcome outcome;

@@ -5,6 +5,7 @@
 
 #include "hw/camera.hpp"
 #include "servo/command.hpp"
+#include "src/throwing/look_times.hpp"
 #include "vision/low_view.hpp"
 #include "vision/near_view.hpp"
 
@@ -20,9 +21,10 @@ struct Sight {
 
 class ThrowerEyes {
  public:
-  ThrowerEyes(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup);
+  ThrowerEyes(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup, const LookTimes& times);
 
-  /// Looks at the newest frame of the camera that is asked for, if there is a new one. `hint` confines the low view.
+  /// Publishes a look that is done by `now`; if none is under way, looks at the newest frame of the camera that is
+  /// asked for, if there is a new one. `hint` confines the low view.
   void look(servo::CameraOrder order, hw::Camera& near_camera, hw::Camera& low_camera, Stamp now,
             const vision::LowViewPrediction& hint);
 
@@ -38,6 +40,12 @@ class ThrowerEyes {
   void look_near(const hw::Frame& frame);
   void look_low(const hw::Frame& frame, const vision::LowViewPrediction& hint);
 
+  void publish(Stamp now);
+
+  LookTimes times_;
+  Stamp done_at_{};
+  std::optional<SheetPosePercept> near_pending_;
+  std::optional<SheetPosePercept> low_pending_;
   vision::NearView near_;
   vision::LowView low_;
   std::optional<SheetPosePercept> near_percept_;

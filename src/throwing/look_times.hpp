@@ -1,0 +1,15 @@
+// How long a look takes on the robot's computer.
+#pragma once
+
+#include "vision/percepts/stamp.hpp"
+
+namespace hogline {
+
+/// On the simulated rink that time passes in the stepped clock: while the eyes are busy frames are missed, and what was
+/// seen is known only afterwards.
+struct LookTimes {
+  Duration near{};
+  Duration low{};
+};
+
+}  // namespace hogline
