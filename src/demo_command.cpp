@@ -7,6 +7,7 @@
 
 #include "src/exit_status.hpp"
 #include "src/throw_request.hpp"
+#include "vision/geometry/sheet.hpp"
 
 namespace hogline {
 namespace {
@@ -29,7 +30,11 @@ void tell_release(const ReleaseOutcome& r) {
 }
 
 void tell_rest(const hw::sim::StoneTruth& stone) {
-  constexpr double tee_to_tee_m = 34.747;
+  using vision::rules::tee_to_tee_m;
+  if (std::abs(stone.x_m) > vision::rules::max_width_m / 2.0 || stone.y_m > tee_to_tee_m + vision::rules::tee_to_back_m) {
+    fmt::print("The stone left the sheet.\n");
+    return;
+  }
   const double to_tee_m = std::hypot(stone.x_m, stone.y_m - tee_to_tee_m);
   fmt::print("The stone lies still {:.2f} m from the far tee ({:+.2f} m across, {:+.2f} m along).\n", to_tee_m, stone.x_m,
              stone.y_m - tee_to_tee_m);

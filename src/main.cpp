@@ -1,6 +1,7 @@
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <opencv2/core/utility.hpp>
 
 #include "src/config/config_error.hpp"
@@ -17,6 +18,12 @@ using hogline::ExitStatus;
 void prepare_libraries() {
   gsl_set_error_handler_off();
   cv::setNumThreads(1);
+}
+
+// CLI11 would wrap -1 around.
+std::string whole_number(const std::string& text) {
+  const bool digits = !text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? std::string() : "'" + text + "' is no whole number from 0 to 999999999999999999";
 }
 
 CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
@@ -48,7 +55,9 @@ void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
       ->capture_default_str()
       ->check(CLI::IsMember({"cw", "ccw"}));
   app->add_option("--spin", options.spin_radps, "the stone's rate of turn at release, rad/s")->capture_default_str();
-  app->add_option("--seed", options.seed, "of all that is random in the simulation")->capture_default_str();
+  app->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
   app->add_option("--out", options.out, "folder for pictures, plots and the log")->capture_default_str();
 }
 
@@ -61,6 +70,7 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
   command->footer(
       "Example:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
+      "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
       "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration.");
   return command;
 }
@@ -79,6 +89,7 @@ int run(int argc, char** argv) {
   hogline::PoseOptions pose_options;
   hogline::ThrowOptions throw_options;
   hogline::ThrowOptions demo_options;
+  demo_options.out = "out/demo";
   const auto* pose = add_pose(app, pose_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
@@ -100,10 +111,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const hogline::config::ConfigError& e) {
-    fprintf(stderr, "hogline: %s\n", e.what());
+    std::fprintf(stderr, "hogline: %s\n", e.what());
     return ExitStatus::wrong_use;
   } catch (const std::exception& e) {
-    fprintf(stderr, "hogline: %s\n", e.what());
-    return ExitStatus::wrong_use;
+    std::fprintf(stderr, "hogline: %s\n", e.what());
+    return ExitStatus::failed;
   }
 }

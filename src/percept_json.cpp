@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 // Enough digits for any camera, few enough to read.
-double rounded(double value, double step) { return std::round(value / step) * step; }
+double rounded(double value, double step) { return std::round(value / step) / std::round(1.0 / step); }
 
 void add_estimate(ordered_json& line, const SheetPosePercept& p) {
   line["yaw_deg"] = degrees(p.body.yaw_rad);

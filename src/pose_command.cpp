@@ -69,7 +69,7 @@ void check_use(const PoseOptions& options) {
   if (options.sequence && options.camera != "low") {
     throw config::ConfigError("command line", 0, "--sequence", "", "goes with --camera low only");
   }
-  if (options.sequence && !(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
+  if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
                               "must be above 0, at most 1000 frames a second");
   }

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "src/config/config_error.hpp"
@@ -18,6 +21,15 @@ void check_number(const char* option, double value, double low, double high, con
   if (std::isfinite(value) && value >= low && value <= high) return;
   throw config::ConfigError("command line", 0, option, fmt::format("{}", value),
                             fmt::format("must be a number from {} to {} {}", low, high, unit));
+}
+
+// Before the throw, not after it.
+void check_folder(const std::string& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
+    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
+  }
 }
 
 // One line a state, with the time at which it began; nothing more often, so that a log file stays readable.
@@ -37,6 +49,7 @@ class StateTeller {
 }  // namespace
 
 ThrowRequest make_request(const ThrowOptions& options) {
+  check_folder(options.out);
   ThrowRequest request;
   request.rig = options.rig.empty()
                     ? config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig")

@@ -79,7 +79,7 @@ cv::Mat plots_of(const ThrowOutcome& outcome, cv::Size size) {
   plots[2].series = {
       series(log, "truth", inks::text, SeriesStyle::line, [](const ThrowSample& s) { return s.true_hog_distance_m; }),
       series(log, "believed", inks::blue, SeriesStyle::line, [](const ThrowSample& s) {
-        return s.state >= servo::ThrowerState::align ? s.believed_hog_distance_m : nothing;
+        return s.state >= servo::ThrowerState::fold ? s.believed_hog_distance_m : nothing;
       })};
   for (Plot& p : plots) {
     p.marks = state_marks(outcome.result);
@@ -92,7 +92,7 @@ cv::Mat plots_of(const ThrowOutcome& outcome, cv::Size size) {
 
 cv::Mat plan_of(const ThrowRequest& request, const ThrowOutcome& outcome, int length_px) {
   SheetPlan plan;
-  plan.title = "the throw from above";
+  plan.title = "the throw";
   plan.width_m = request.scenario.sheet.width_m;
   PlanTrack robot{.name = "robot", .points_m = {}, .ink = inks::blue};
   PlanTrack stone{.name = "stone", .points_m = {}, .ink = inks::red};
@@ -126,6 +126,7 @@ void write_report(const std::string& folder, const ThrowRequest& request, const 
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(fmt::format("{}: can not be made: {}", folder, error.message()));
 
+  for (const char* name : {"/near.png", "/low.png"}) std::filesystem::remove(folder + name, error);  // an earlier throw's
   cv::Mat near;
   cv::Mat low;
   if (const auto& s = outcome.near_sight) near = draw_near_view(s->frame.bgr, s->percept, s->sketch);

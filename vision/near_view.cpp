@@ -101,7 +101,7 @@ std::string NearView::Impl::unusable(const cv::Mat& image) const {
   return {};
 }
 
-// The seed's chain: the (h, l, r) whose four points agree best with a pose.
+// The paper's chain: the (h, l, r) whose four points agree best with a pose.
 std::optional<Hypothesis> NearView::Impl::by_four_points(const cv::Mat& image, const std::vector<EdgePoint>& points,
                                                          const LineClasses& classes, NearViewSketch* sketch) const {
   if (classes.hog.empty() || classes.left.empty() || classes.right.empty()) return std::nullopt;

@@ -1,5 +1,6 @@
 #include "src/config/scenario.hpp"
 
+#include <cmath>
 #include <random>
 
 #include "src/config/schema.hpp"

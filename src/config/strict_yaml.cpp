@@ -22,6 +22,8 @@ class Reader {
   explicit Reader(Document& document) : document_(document) {}
 
   json read(const YAML::Node& node, const std::string& key) {
+    // Aliases of aliases grow without bound; no rig or scenario comes near this.
+    if (++nodes_ > most_nodes) throw ConfigError(document_.file, 0, "", "", "holds too many values; write aliases out");
     const int line = node.Mark().is_null() ? 0 : node.Mark().line + 1;
     document_.lines.try_emplace(key, line);
     switch (node.Type()) {
@@ -77,6 +79,7 @@ class Reader {
   static std::optional<json> read_number(const std::string& text) {
     if (text == ".nan" || text == ".NaN" || text == ".NAN") return std::nan("");
     if (text == ".inf" || text == "+.inf" || text == "-.inf" || text == ".Inf" || text == "-.Inf") return HUGE_VAL;
+    if (text.starts_with("+-") || text.starts_with("0x-")) return std::nullopt;
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const char* end = text.data() + text.size();
     long long integer = 0;
@@ -92,7 +95,10 @@ class Reader {
     return std::nullopt;
   }
 
+  static constexpr int most_nodes = 20000;
+
   Document& document_;
+  int nodes_ = 0;
 };
 
 }  // namespace

@@ -15,6 +15,10 @@ constexpr Duration throw_limit = std::chrono::seconds{90};
 constexpr Duration slide_limit = std::chrono::seconds{60};
 constexpr double at_rest_mps = 1e-3;
 
+bool stone_moves(const hw::sim::Truth& truth) {
+  return !truth.held && std::hypot(truth.stone.vx_mps, truth.stone.vy_mps) > at_rest_mps;
+}
+
 // Follows the truth through the throw, for what only the simulator can judge.
 class Judge {
  public:
@@ -35,13 +39,14 @@ class Judge {
     r.hog_line_violation = violation_;
     r.stone_burned = truth.burned.has_value();
     r.abort = thrower.abort_reason();
+    if (!r.abort && !thrower.finished()) r.abort = "the throw did not come to its end in time";
     for (const auto& entry : thrower.history()) {
       r.states.push_back({servo::to_string(entry.state), seconds(entry.since - start_)});
     }
     if (line_start_) r.yaw_after_alignment_rad = vision::wrapped(line_start_->yaw_rad - request_.order.heading_rad);
     if (truth.release) r.release = judge_release(*truth.release);
     r.stop_hog_distance_m = vision::rules::tee_to_hog_m - truth.body.y_m;
-    if (!truth.held) r.rest = truth.stone;
+    if (!truth.held && !stone_moves(truth)) r.rest = truth.stone;
     r.sim_time_s = seconds(now - start_);
     r.ok = r.release && !r.hog_line_violation && !r.stone_burned && !r.abort && thrower.finished() &&
            std::abs(r.release->hog_distance_m - r.release->target_hog_distance_m) <=
@@ -109,10 +114,6 @@ std::optional<Stamp> run_since(const servo::Thrower& thrower) {
     if (entry.state == ThrowerState::run) return entry.since;
   }
   return std::nullopt;
-}
-
-bool stone_moves(const hw::sim::Truth& truth) {
-  return !truth.held && std::hypot(truth.stone.vx_mps, truth.stone.vy_mps) > at_rest_mps;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The seed's four points: where the tangents from the two vanishing points touch the outer ring (figure 4 of the
-// paper).
+// The four points of Yoon, Kim, Hong and Sull ("Vision System of Curling Robots: Thrower and Skip", figure 4): where the
+// tangents from the two vanishing points touch the outer ring.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,10 +10,13 @@ namespace {
 
 constexpr std::size_t fewest_points = 60;
 constexpr double beside_contour_m = 0.12;
+constexpr double worst_residual_px = 3.0;
 
 std::vector<cv::Point> outer_contour(const cv::Mat& mask) {
+  // Lines of the ring's colour touch it; they are thinner than any ring.
   cv::Mat closed;
-  cv::morphologyEx(mask, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  cv::morphologyEx(mask, closed, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, {4, 4}));
+  cv::morphologyEx(closed, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(closed, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   const auto largest = std::max_element(contours.begin(), contours.end(), [](const auto& a, const auto& b) {
@@ -99,6 +102,7 @@ std::optional<RingEllipse> fit_outer_ring(const HouseSegmentation& house, const 
     ring.residual_px = std::sqrt(sum / std::max<double>(1.0, static_cast<double>(kept.size())));
     used = std::move(kept);
   }
+  if (ring.residual_px > worst_residual_px) return std::nullopt;
   for (const EdgePoint* p : used) ring.contour.push_back(p->pixel);
   return ring;
 }

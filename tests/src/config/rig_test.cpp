@@ -126,6 +126,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "from 0.0 to 0.05"},
         Refusal{"a key twice", with("    gamma: 2.2\n", "    gamma: 2.2\n    gamma: 1.0\n"), "cameras.near.gamma",
                 "twice"},
+        Refusal{"aliases that explode",
+                "a0: &a0 [1,1,1,1,1,1,1,1,1,1]\na1: &a1 [*a0,*a0,*a0,*a0,*a0,*a0,*a0,*a0,*a0,*a0]\n"
+                "a2: &a2 [*a1,*a1,*a1,*a1,*a1,*a1,*a1,*a1,*a1,*a1]\na3: &a3 [*a2,*a2,*a2,*a2,*a2,*a2,*a2,*a2,*a2,*a2]\n"
+                "a4: &a4 [*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3]\na5: [*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4]\n",
+                "", "too many values"},
         Refusal{"no YAML", "cameras: [", "", "not YAML"}, Refusal{"empty file", "", "", "must hold one YAML document"},
         Refusal{"a list", "- 1\n- 2\n", "", "must hold one YAML document"},
         Refusal{"binary", std::string("\x89PNG\r\n\x1a\n\0\0", 10), "", ""}));
