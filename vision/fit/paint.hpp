@@ -36,9 +36,9 @@ struct GroundCut {
   Eigen::Vector2d beside;  ///< along the tangent, metres a pixel
 };
 
-/// How far the cut may reach either way before it meets other paint than `own`, in pixels, at most `limit_px`; both are
-/// zero when the place itself is within `clear_px` of it. `across_own_m`: {-a, b} of the own paint beside the place
-/// along y or x or r do not count, so own edges are not met.
+/// How far the cut may reach either way before it meets other paint than the feature `own`, in pixels, at most
+/// `limit_px`; both are zero when the place itself is within `clear_px` of other paint. Beside the own sideline the
+/// neighbouring sheet's is expected.
 struct Room {
   double before_px;
   double after_px;

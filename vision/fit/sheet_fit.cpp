@@ -27,6 +27,9 @@ constexpr double least_share = 0.4;  // of the places looked at
 // Prior of a paint's width about what the scan saw, and of a divider's place.
 constexpr double paint_sigma_m = 0.015;
 
+// By the rules the centre line runs in the sheet's middle; measured sheets keep that to a few centimetres.
+constexpr double symmetry_sigma_m = 0.02;
+
 // Error common to a whole feature: paint against the rules, lens against its calibration.
 constexpr double shared_error_px = 0.03;
 
@@ -175,7 +178,12 @@ Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
     p.add(unit(edge), 0.0, line.known ? 0.3 : held);
     p.add(unit(edge + 1), 0.0, line.known && line.is_line ? paint_sigma_m : held);
   }
-  if (start.sheet_width_m && state.sidelines[0].known && state.sidelines[1].known) {
+  const bool both = state.sidelines[0].known && state.sidelines[1].known;
+  if (both) {
+    p.add(unit(parameter::left_edge) - unit(parameter::right_edge),
+          state.sidelines[1].edge_m - state.sidelines[0].edge_m, symmetry_sigma_m);
+  }
+  if (start.sheet_width_m && both) {
     p.add(unit(parameter::left_edge) + unit(parameter::right_edge),
           *start.sheet_width_m - state.sidelines[0].edge_m - state.sidelines[1].edge_m, start.sheet_width_sigma_m);
   }
