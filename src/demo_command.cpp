@@ -31,20 +31,22 @@ void tell_release(const ReleaseOutcome& r) {
 
 void tell_rest(const hw::sim::StoneTruth& stone) {
   using vision::rules::tee_to_tee_m;
-  if (std::abs(stone.x_m) > vision::rules::max_width_m / 2.0 || stone.y_m > tee_to_tee_m + vision::rules::tee_to_back_m) {
+  if (std::abs(stone.x_m) > vision::rules::max_width_m / 2.0 ||
+      stone.y_m > tee_to_tee_m + vision::rules::tee_to_back_m) {
     fmt::print("The stone left the sheet.\n");
     return;
   }
   const double to_tee_m = std::hypot(stone.x_m, stone.y_m - tee_to_tee_m);
-  fmt::print("The stone lies still {:.2f} m from the far tee ({:+.2f} m across, {:+.2f} m along).\n", to_tee_m, stone.x_m,
-             stone.y_m - tee_to_tee_m);
+  fmt::print("The stone lies still {:.2f} m from the far tee ({:+.2f} m across, {:+.2f} m along).\n", to_tee_m,
+             stone.x_m, stone.y_m - tee_to_tee_m);
 }
 
 void tell(const ThrowResult& result, const std::string& folder) {
   for (const StateTime& s : result.states) fmt::print("  {:6.2f} s  {}\n", s.t_s, s.name);
   fmt::print("\n");
   if (result.yaw_after_alignment_rad) {
-    fmt::print("After the alignment the body stood {:+.3f} deg off the ordered heading.\n", *result.yaw_after_alignment_rad * deg);
+    fmt::print("After the alignment the body stood {:+.3f} deg off the ordered heading.\n",
+               *result.yaw_after_alignment_rad * deg);
   }
   if (result.release) tell_release(*result.release);
   if (result.abort) fmt::print("Aborted: {}. The stone was {}.\n", *result.abort, result.release ? "let go" : "kept");

@@ -112,8 +112,9 @@ int run_pose(const PoseOptions& options) {
     const hw::files::LoadedImage image = read_picture(path, setup.intrinsics);
     cv::Mat drawing;
     const auto begin = std::chrono::steady_clock::now();
-    const SheetPosePercept percept = image.error ? not_seen(image.error->what, stamp)
-                                                 : estimate(image.bgr, stamp, options.draw.empty() ? nullptr : &drawing);
+    const SheetPosePercept percept = image.error
+                                         ? not_seen(image.error->what, stamp)
+                                         : estimate(image.bgr, stamp, options.draw.empty() ? nullptr : &drawing);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", pose_line(path, percept, elapsed.count()));
     std::fflush(stdout);

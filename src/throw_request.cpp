@@ -54,12 +54,12 @@ ThrowRequest make_request(const ThrowOptions& options) {
   request.rig = options.rig.empty()
                     ? config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig")
                     : config::load_thrower_rig(options.rig);
-  request.scenario =
-      options.scenario.empty()
-          ? config::parse_scenario(config::embedded_file("scenarios/practice.yaml"), "practice scenario", options.seed)
-          : config::load_scenario(options.scenario, options.seed);
+  request.scenario = options.scenario.empty() ? config::parse_scenario(config::embedded_file("scenarios/practice.yaml"),
+                                                                       "practice scenario", options.seed)
+                                              : config::load_scenario(options.scenario, options.seed);
 
-  check_number("--speed", options.speed_mps, 0.5, request.rig.thrower.limits.max_speed_mps, "m/s (limits.max_speed_mps)");
+  check_number("--speed", options.speed_mps, 0.5, request.rig.thrower.limits.max_speed_mps,
+               "m/s (limits.max_speed_mps)");
   check_number("--heading-deg", options.heading_deg, -8.0, 8.0, "degrees");
   check_number("--spin", options.spin_radps, 0.0, request.rig.gripper.max_spin_radps, "rad/s (gripper.max_spin_radps)");
   request.order = {.speed_mps = options.speed_mps,

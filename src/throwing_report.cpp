@@ -31,7 +31,8 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream stream(path, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; check the folder and the disk's space", path));
+  if (!stream)
+    throw std::runtime_error(fmt::format("{}: can not be written; check the folder and the disk's space", path));
 }
 
 Series series(const ThrowLog& log, std::string name, Ink ink, SeriesStyle style, double (*value)(const ThrowSample&)) {
@@ -69,11 +70,11 @@ cv::Mat plots_of(const ThrowOutcome& outcome, cv::Size size) {
              [](const ThrowSample& s) { return driving(s) ? s.speed_setpoint_mps : nothing; })};
   plots[1].title = "heading";
   plots[1].y_label = "deg";
-  plots[1].series = {
-      series(log, "truth", inks::text, SeriesStyle::line, [](const ThrowSample& s) { return s.true_body.yaw_rad * deg; }),
-      series(log, "believed", inks::blue, SeriesStyle::line, [](const ThrowSample& s) {
-        return s.state >= servo::ThrowerState::align ? s.believed_yaw_rad * deg : nothing;
-      })};
+  plots[1].series = {series(log, "truth", inks::text, SeriesStyle::line,
+                            [](const ThrowSample& s) { return s.true_body.yaw_rad * deg; }),
+                     series(log, "believed", inks::blue, SeriesStyle::line, [](const ThrowSample& s) {
+                       return s.state >= servo::ThrowerState::align ? s.believed_yaw_rad * deg : nothing;
+                     })};
   plots[2].title = "distance to the hog line";
   plots[2].y_label = "m";
   plots[2].series = {
@@ -104,7 +105,8 @@ cv::Mat plan_of(const ThrowRequest& request, const ThrowOutcome& outcome, int le
   if (!robot.points_m.empty()) {
     const Eigen::Vector2d from = robot.points_m.front();
     const Eigen::Vector2d along(-std::sin(request.order.heading_rad), std::cos(request.order.heading_rad));
-    plan.tracks.push_back({.name = "line of the shot", .points_m = {from, from + 38.0 * along}, .ink = inks::purple, .dashed = true});
+    plan.tracks.push_back(
+        {.name = "line of the shot", .points_m = {from, from + 38.0 * along}, .ink = inks::purple, .dashed = true});
   }
   plan.tracks.push_back(robot);
   plan.tracks.push_back(stone);
@@ -126,7 +128,8 @@ void write_report(const std::string& folder, const ThrowRequest& request, const 
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(fmt::format("{}: can not be made: {}", folder, error.message()));
 
-  for (const char* name : {"/near.png", "/low.png"}) std::filesystem::remove(folder + name, error);  // an earlier throw's
+  for (const char* name : {"/near.png", "/low.png"})
+    std::filesystem::remove(folder + name, error);  // an earlier throw's
   cv::Mat near;
   cv::Mat low;
   if (const auto& s = outcome.near_sight) near = draw_near_view(s->frame.bgr, s->percept, s->sketch);
@@ -138,12 +141,11 @@ void write_report(const std::string& folder, const ThrowRequest& request, const 
   const cv::Mat plots = plots_of(outcome, {1200, 300});
   write_picture(folder + "/sheet.png", plan);
   write_picture(folder + "/plots.png", plots);
-  write_picture(folder + "/overview.png",
-                draw_contact_sheet({{{near, "near view: the sheet's pose before the run"},
-                                     {low, "low view: the last look at the hog line"}},
-                                    {{plan, "from above"}},
-                                    {{plots, "truth and belief"}}},
-                                   1600));
+  write_picture(folder + "/overview.png", draw_contact_sheet({{{near, "near view: the sheet's pose before the run"},
+                                                               {low, "low view: the last look at the hog line"}},
+                                                              {{plan, "from above"}},
+                                                              {{plots, "truth and belief"}}},
+                                                             1600));
 
   outcome.log.write_csv(folder + "/log.csv");
   write_text(folder + "/result.json", result_line(outcome.result) + "\n");

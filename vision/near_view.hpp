@@ -1,4 +1,5 @@
-// Near-view sheet pose: acquisition by the chain of Yoon et al. (see detect/four_points.hpp), then refinement to every painted edge.
+// Near-view sheet pose: acquisition by the chain of Yoon et al. (see detect/four_points.hpp), then refinement to every
+// painted edge.
 #pragma once
 
 #include <Eigen/Core>

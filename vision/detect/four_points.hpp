@@ -1,5 +1,5 @@
-// The four points of Yoon, Kim, Hong and Sull ("Vision System of Curling Robots: Thrower and Skip", figure 4): where the
-// tangents from the two vanishing points touch the outer ring.
+// The four points of Yoon, Kim, Hong and Sull ("Vision System of Curling Robots: Thrower and Skip", figure 4): where
+// the tangents from the two vanishing points touch the outer ring.
 #pragma once
 
 #include <Eigen/Core>
