@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/fit/joint_solver.hpp"
-#include "vision/fit/sideline_scan.hpp"
+#include "vision/fit/sheet_fit_impl.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -17,27 +16,14 @@ constexpr double rough_search_px = 10.0;  // a start that needs a wider search m
 
 constexpr double held = 1e-6;  // sigma of a parameter that is not estimated
 
-// Limits beyond which an estimate tells nothing: the fit is then "not determined".
-constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
-constexpr double most_residual_px = 1.5;
 constexpr float least_colour_agreement = 0.8F;  // cosine
 constexpr double convincing_share = 0.6;
-constexpr double least_share = 0.4;  // of the places looked at
 
 // Prior of a paint's width about what the scan saw, and of a divider's place.
 constexpr double paint_sigma_m = 0.015;
 
 // By the rules the centre line runs in the sheet's middle; measured sheets keep that to a few centimetres.
 constexpr double symmetry_sigma_m = 0.02;
-
-// Error common to a whole feature: paint against the rules, lens against its calibration.
-constexpr double shared_error_px = 0.03;
-
-// A divider's shade and mirror image move both its feet the same way: measured 3 to 5 mm of width from 2 m above.
-constexpr double foot_sigma_m = 0.004;
-
-// Of the whole sheet's paint against the rules' numbers, which no residual shows.
-constexpr double painted_sigma_m = 0.0003;
 
 // A start that is wrong by `start_position_m` and `start_angle_rad` moves a middling site by about `usual_search_px`;
 // near the camera it moves it further, and the search goes along.
@@ -63,57 +49,6 @@ Eigen::Matrix<double, 6, 1> start_sigma(double search_px) {
 ParameterRow unit(int k) { return ParameterRow::Unit(k); }
 
 }  // namespace
-
-struct SheetFit::Impl {
-  explicit Impl(const CameraSetup& given)
-      : setup(given), lens(given.intrinsics), response(given.gamma), bRc(bMc(given.mount).linear()) {
-    sites.reserve(2000);
-    found.reserve(2000);
-    wide.reserve(1000);
-    scratch.reserve(2000);
-    result.sites.reserve(2000);
-    result.features.reserve(paint_feature_count);
-  }
-
-  const SheetFitResult& fit(const cv::Mat& image, const SheetFitStart& start);
-
-  std::string unusable(const cv::Mat& image, const SheetFitStart& start) const;
-  SheetCamera camera() const { return {lens, state.eMc, Ice{state.paint_depth_m, setup.ice.refractive_index}}; }
-  void begin(const SheetFitStart& start);
-  Prior prior(const SheetFitStart& start) const;
-  void plan(const SheetFitStart& start, double spacing_px);
-  bool arrive(const PictureLight& light, const SheetFitStart& start);
-  double borne_out() const;
-  bool sidelines_borne_out() const;
-  bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
-  bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
-                   const std::optional<Consensus>& consensus);
-  void look(const PictureLight& light, double search_px, int half_breadth);
-  void drop_odd_colours();
-  bool move_by(const ParameterVector& change);
-  void find_sidelines(const PictureLight& light, const SheetFitStart& start);
-  void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
-              int half_breadth);
-  void judge(const SheetFitStart& start);
-  void report_width();
-  void report_sites();
-  const SheetFitResult& refuse(std::string reason);
-
-  CameraSetup setup;
-  Lens lens;
-  ResponseCurve response;
-  Eigen::Matrix3d bRc;  // b from c, as mounted
-
-  FitState state;
-  ParameterMatrix covariance = ParameterMatrix::Zero();
-  std::vector<PlannedSite> sites;
-  std::vector<Candidates> wide;
-  std::vector<SiteMeasurement> found;
-  std::vector<double> scratch;
-  CloseStep step;
-  Profile profile;
-  SheetFitResult result;
-};
 
 const SheetFitResult& SheetFit::Impl::refuse(std::string reason) {
   result.ok = false;
@@ -331,97 +266,6 @@ void SheetFit::Impl::refine(const PictureLight& light, const SheetFitStart& star
   look(light, search_px, half_breadth);
   drop_odd_colours();
   step_closely(sites, found, prior(start), step, scratch);
-}
-
-void SheetFit::Impl::report_width() {
-  std::array<int, 2> used{};
-  std::array<int, 2> seen{};
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (sites[i].feature < left_sideline_feature) continue;
-    const auto side = static_cast<std::size_t>(sites[i].feature - left_sideline_feature);
-    used[side] += step.weight[i] > 0.0 ? 1 : 0;
-    seen[side] += found[i].found ? 1 : 0;
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    const double least = state.sidelines[side].moves_camera ? 0.4 : 0.8;
-    if (!state.sidelines[side].known || used[side] < 8 || used[side] < least * seen[side]) return;
-  }
-  result.sheet_width_m = state.sidelines[0].edge_m + state.sidelines[1].edge_m;
-  const double variance = covariance(parameter::left_edge, parameter::left_edge) +
-                          covariance(parameter::right_edge, parameter::right_edge) +
-                          2.0 * covariance(parameter::left_edge, parameter::right_edge);
-  const double feet_m = setup.sheet.sideline == SidelineKind::line ? 0.0 : foot_sigma_m;
-  result.sheet_width_sigma_m = std::hypot(std::sqrt(std::max(variance, 0.0)), feet_m);
-}
-
-void SheetFit::Impl::report_sites() {
-  const auto& features = paint_features();
-  std::array<int, paint_feature_count> place{};
-  place.fill(-1);
-  double square = 0.0;
-  double weights = 0.0;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const auto f = static_cast<std::size_t>(sites[i].feature);
-    if (place[f] < 0) {
-      place[f] = static_cast<int>(result.features.size());
-      result.features.push_back({std::string(features[f].name), 0, 0});
-    }
-    FittedFeature& feature = result.features[static_cast<std::size_t>(place[f])];
-    const bool used = step.weight[i] > 0.0;
-    ++feature.sites_tried;
-    feature.sites_used += used ? 1 : 0;
-    result.sites.push_back(
-        {sites[i].pixel, sites[i].normal, step.residual_px[i], used ? step.weight[i] : 0.0, place[f]});
-    square += step.weight[i] * step.residual_px[i] * step.residual_px[i];
-    weights += step.weight[i];
-    result.sites_used += used ? 1 : 0;
-  }
-  result.sites_tried = static_cast<int>(sites.size());
-  result.residual_px = weights > 0.0 ? std::sqrt(square / weights) : 0.0;
-}
-
-void SheetFit::Impl::judge(const SheetFitStart& start) {
-  covariance = covariance_of(sites, found, step, prior(start), shared_error_px);
-  result.eMc = state.eMc;
-  result.covariance = covariance.topLeftCorner<6, 6>();
-  result.body = planar_body(state.eMc, setup.mount);
-  result.paint_depth_m = state.paint_depth_m;
-
-  // The body by the camera's twist: turning about the camera moves the body about it.
-  const Eigen::Matrix3d eRc = state.eMc.linear();
-  Eigen::Matrix<double, 3, 6> by_twist = Eigen::Matrix<double, 3, 6>::Zero();  // x, y, yaw
-  const Eigen::Matrix3d eRb = eRc * bRc.transpose();
-  const double forward2 = eRb(0, 0) * eRb(0, 0) + eRb(1, 0) * eRb(1, 0);
-  const Eigen::RowVector3d yaw_by_turn =
-      (Eigen::RowVector3d(0.0, 0.0, 1.0) - eRb(2, 0) / forward2 * Eigen::RowVector3d(eRb(0, 0), eRb(1, 0), 0.0)) * eRc;
-  by_twist.block<2, 3>(0, 0) = eRc.topRows<2>();
-  by_twist.block<1, 3>(2, 3) = yaw_by_turn;
-  const double c = std::cos(result.body.yaw_rad);
-  const double s = std::sin(result.body.yaw_rad);
-  by_twist.block<1, 3>(0, 3) = (c * setup.mount.x_m - s * setup.mount.y_m) * yaw_by_turn;
-  by_twist.block<1, 3>(1, 3) = (s * setup.mount.x_m + c * setup.mount.y_m) * yaw_by_turn;
-  const Eigen::Matrix3d planar = by_twist * result.covariance * by_twist.transpose();
-  result.sigma = {std::hypot(std::sqrt(planar(0, 0)), painted_sigma_m),
-                  std::hypot(std::sqrt(planar(1, 1)), painted_sigma_m), std::sqrt(planar(2, 2))};
-  result.hog_distance_sigma_m = result.sigma.y_m;
-  report_width();
-  report_sites();
-
-  if (!covariance.allFinite()) {
-    refuse("the fit is not determined");
-  } else if (result.sites_used < 12) {
-    refuse("too few places of paint were found");
-  } else if (result.sites_used < least_share * result.sites_tried) {
-    refuse("most of the paint is not where the fit puts it");
-  } else if (result.residual_px > most_residual_px) {
-    refuse("what was found does not fit a sheet");
-  } else if (!(result.sigma.y_m < start.most_sigma_m)) {
-    refuse("nothing in view tells the distance along the sheet");
-  } else if (!(result.sigma.x_m < start.most_sigma_m) || !(result.sigma.yaw_rad < most_sigma_yaw_rad)) {
-    refuse("nothing in view tells the place across the sheet or the direction");
-  } else {
-    result.ok = true;
-  }
 }
 
 const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitStart& start) {
