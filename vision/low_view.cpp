@@ -52,7 +52,11 @@ std::vector<EdgePoint> down_ice_points(const std::vector<EdgePoint>& points) {
 
 struct LowView::Impl {
   explicit Impl(const CameraSetup& camera_setup)
-      : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
+      : setup(camera_setup),
+        view(camera_setup),
+        ridge_finder(view, range_m),
+        light(ridge_finder.top()),
+        fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
   Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
@@ -67,6 +71,7 @@ struct LowView::Impl {
   CameraSetup setup;
   GroundView view;
   HogRidgeFinder ridge_finder;
+  IceLight light;
   SheetFit fit;
 };
 
@@ -82,14 +87,16 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   nothing.reason = impl_->unusable(image);
   if (!nothing.reason.empty()) return nothing;
 
-  const auto ridges = impl_->ridge_finder.find(image);
+  impl_->light.read(image);
+  const auto ridges = impl_->ridge_finder.find(impl_->light);
   int too_thin = 0;
   const auto hog_lines = find_cross_candidates(ridges, impl_->ridge_finder, impl_->view, impl_->hog_range(prediction),
                                                most_hog_lines, &too_thin);
   nothing.reason = impl_->why_no_hog_line(too_thin);
   if (hog_lines.empty()) return nothing;
 
-  const auto points = find_edge_points(image, impl_->view, {.range_m = range_m});
+  const auto points =
+      find_edge_points(impl_->light.half(), impl_->light.top(), impl_->view, {.range_m = range_m});
   const auto lines = find_line_candidates(down_ice_points(points), impl_->view.pixels_per_plane_unit(), most_lines);
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
