@@ -11,6 +11,7 @@
 #include "vision/detect/line_candidates.hpp"
 #include "vision/detect/line_classes.hpp"
 #include "vision/fit/sheet_fit.hpp"
+#include "vision/hog_line_evidence.hpp"
 #include "vision/low_view_sketch.hpp"
 #include "vision/near_view_sketch.hpp"
 
@@ -56,6 +57,7 @@ struct LowView::Impl {
         view(camera_setup),
         ridge_finder(view, range_m),
         light(ridge_finder.top()),
+        response(camera_setup.gamma),
         fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
@@ -64,6 +66,7 @@ struct LowView::Impl {
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
   SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
+  std::string doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const;
   SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
   double lean_error_m(const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
@@ -72,6 +75,7 @@ struct LowView::Impl {
   GroundView view;
   HogRidgeFinder ridge_finder;
   IceLight light;
+  ResponseCurve response;
   SheetFit fit;
 };
 
@@ -95,8 +99,7 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   nothing.reason = impl_->why_no_hog_line(too_thin);
   if (hog_lines.empty()) return nothing;
 
-  const auto points =
-      find_edge_points(impl_->light.half(), impl_->light.top(), impl_->view, {.range_m = range_m});
+  const auto points = find_edge_points(impl_->light.half(), impl_->light.top(), impl_->view, {.range_m = range_m});
   const auto lines = find_line_candidates(down_ice_points(points), impl_->view.pixels_per_plane_unit(), most_lines);
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
@@ -165,14 +168,14 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   fit_start.search_px = search_px;
   fit_start.sheet_width_m = start.width_m;
   fit_start.most_sigma_m = most_sigma_m;
-  fit_start.pitch_offset_rad = start.lean_rad;
-  fit_start.pitch_sigma_rad = start.lean_sigma_rad;
+  fit_start.pitch_sigma_rad = lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;
   fit_start.height_sigma_m = height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
   SheetPosePercept seen;
   seen.stamp = stamp;
   seen.reason = result.ok ? doubt(result, start) : result.reason;
+  if (seen.reason.empty()) seen.reason = doubt_of_line(image, result);
   if (!seen.reason.empty()) return seen;
   if (sketch != nullptr) sketch->model = model_lines(result.eMc, setup, result.sheet_width_m);
   return percept(result, stamp);
@@ -184,6 +187,9 @@ std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& star
   if (std::abs(up.x()) > 6.0 * lean_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
     return "the fitted tilt is too far from the mount's";
   }
+  if (std::abs(result.eMc.translation().z() - setup.mount.z_m) > 4.0 * height_sigma_m) {
+    return "the fitted height is too far from the mount's";
+  }
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
   const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
   if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
@@ -192,13 +198,25 @@ std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& star
   }
   int others = 0;
   for (const FittedFeature& f : result.features) {
-    if (f.name != "hog_line") others += f.sites_used;
-    if (f.name == "hog_line" && (f.sites_used < 12 || f.sites_used < 0.3 * f.sites_tried)) {
+    const bool hog = f.name == "hog_line";
+    if (!hog) others += f.sites_used;
+    if (hog && (f.sites_used < 12 || f.sites_used < 0.3 * f.sites_tried)) {
       return "the hog line is not where the pose puts it";
+    }
+    if (f.name == "centre_line" && f.sites_tried >= 12 && f.sites_used < 0.4 * f.sites_tried) {
+      return "the centre line is not where the pose puts it";
+    }
+    if (f.name.ends_with("_ring") && f.sites_tried >= 40 && f.sites_used < 0.3 * f.sites_tried) {
+      return "the rings are not where the pose puts them";
     }
   }
   if (others < 12) return "nothing but the hog line is where the pose puts it";
   return {};
+}
+
+std::string LowView::Impl::doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const {
+  const Picture picture{image.data, image.cols, image.rows, image.channels(), image.step[0]};
+  return vision::doubt(weigh_hog_line(picture, response, {view.lens(), result.eMc, setup.ice}));
 }
 
 SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stamp) const {

@@ -8,7 +8,7 @@
 namespace hogline::vision {
 namespace {
 
-constexpr int unit_shift = 6;    // gains are multiples of 1/64
+constexpr int unit_shift = 6;   // gains are multiples of 1/64
 constexpr int most_gain = 256;  // of a pixel's 255 by it, 16 bits hold
 using Gains = std::array<std::uint16_t, 3>;
 
