@@ -27,6 +27,7 @@ constexpr double search_px = 10.0;
 constexpr int fewest_sideline_points = 40;
 constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
 constexpr double most_sigma_m = 0.3;          // far off, without sidelines, the body's rocking leaves as much
+constexpr double least_lean_sigma_rad = 0.001;
 constexpr double least_error_m = 0.0005;
 constexpr double roll_sigma_rad = 0.0017;
 constexpr double height_sigma_m = 0.003;
@@ -123,7 +124,7 @@ Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& poi
   Start start{.body = body_before(h.hog, h.centre_x_m, vote->lean_rad, view),
               .width_m = known_width_m,
               .lean_rad = vote->lean_rad,
-              .lean_sigma_rad = std::min(vote->sigma_rad, lean_sigma_rad)};
+              .lean_sigma_rad = std::clamp(vote->sigma_rad, least_lean_sigma_rad, lean_sigma_rad)};
   if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
   return start;
 }
@@ -168,7 +169,8 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   fit_start.search_px = search_px;
   fit_start.sheet_width_m = start.width_m;
   fit_start.most_sigma_m = most_sigma_m;
-  fit_start.pitch_sigma_rad = lean_sigma_rad;
+  fit_start.pitch_offset_rad = start.lean_rad;
+  fit_start.pitch_sigma_rad = start.lean_sigma_rad;
   fit_start.roll_sigma_rad = roll_sigma_rad;
   fit_start.height_sigma_m = height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
