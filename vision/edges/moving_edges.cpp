@@ -33,12 +33,18 @@ struct Grey {
       if (weight[c] < 0) base -= 255 * weight[c];
     }
   }
-  unsigned char operator()(const std::uint8_t* pixel, int channels) const {
+  template <int channels>
+  unsigned char of(const std::uint8_t* pixel) const {
     int sum = base;
     for (int c = 0; c < channels; ++c) sum += weight[static_cast<std::size_t>(c)] * pixel[c];
-    return static_cast<unsigned char>(std::clamp(sum >> 8, 0, 255));
+    return static_cast<unsigned char>(sum >> 8);  // the weights' sum is at most 257: no overflow
   }
 };
+
+template <int channels>
+void convert(const Grey& grey, const std::uint8_t* from, unsigned char* to, int pixels) {
+  for (int x = 0; x < pixels; ++x) to[x] = grey.of<channels>(from + channels * x);
+}
 
 }  // namespace
 
@@ -93,11 +99,11 @@ bool MovingEdges::Impl::cut_out(const Picture& picture, const MovingEdge& edge, 
   if (left < 0 || top < 0 || right > picture.width_px || bottom > picture.height_px) return false;
   const Grey grey(edge.colour, picture.channels);
   for (int y = top + border_px - half_mask_px; y < bottom; ++y) {
-    const std::uint8_t* from = picture.pixels + static_cast<std::size_t>(y) * picture.row_bytes;
-    unsigned char* to = patch[static_cast<unsigned>(y - top)];
-    for (int x = left + border_px - half_mask_px; x < right; ++x) {
-      to[x - left] = grey(from + x * picture.channels, picture.channels);
-    }
+    const int begin = left + border_px - half_mask_px;
+    const std::uint8_t* from =
+        picture.pixels + static_cast<std::size_t>(y) * picture.row_bytes + begin * picture.channels;
+    unsigned char* to = patch[static_cast<unsigned>(y - top)] + begin - left;
+    picture.channels == 3 ? convert<3>(grey, from, to, right - begin) : convert<1>(grey, from, to, right - begin);
   }
   return true;
 }
