@@ -88,7 +88,7 @@ Eigen::Matrix<double, 3, 6> SheetFit::Impl::body_by_twist() const {
 }
 
 void SheetFit::Impl::judge(const SheetFitStart& start) {
-  covariance = covariance_of(sites, found, step, prior(start), shared_error_px);
+  covariance = covariance_of(sites, step, prior(start), shared_error_px);
   result.eMc = state.eMc;
   result.covariance = covariance.topLeftCorner<6, 6>();
   result.body = planar_body(state.eMc, setup.mount);

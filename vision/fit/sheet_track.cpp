@@ -12,7 +12,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr double plan_spacing_px = 10.0;
-constexpr double wanted_places = 240.0;
+constexpr double wanted_places = 180.0;
 constexpr double even_share = 0.4;  // of the places are spread evenly, the others go where they tell most
 constexpr double place_sigma_px = 0.1;
 
@@ -225,13 +225,14 @@ bool SheetTrack::Impl::come_closer(const Picture& picture, const SheetPrediction
   return fit.move_by(fit.step.change);
 }
 
-// What the moving edges go by in the next frame: each place's contrast and each feature's colour.
+// What the next frame goes by: each place's contrast and blur, each feature's colour.
 void SheetTrack::Impl::remember() {
   std::array<Eigen::Vector3f, paint_feature_count> sum;
   sum.fill(Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < fit.sites.size(); ++i) {
     if (fit.step.weight[i] <= 0.0) continue;
-    const PlannedSite& site = fit.sites[i];
+    PlannedSite& site = fit.sites[i];
+    site.seen_blur_px = fit.found[i].blur_px;
     const float sense = site.sense < 0 ? -1.0F : 1.0F;
     sum[static_cast<std::size_t>(site.feature)] +=
         sense * Eigen::Map<const Eigen::Vector3f>(fit.found[i].colour.data());
