@@ -38,7 +38,7 @@ class SheetTrack {
   const SheetFitResult& begin(const cv::Mat& image, const SheetFitStart& start);
 
   /// `ok == false` with a reason: lost. The fit itself does not use the prediction's covariance, only the search does:
-  /// a result is a measurement of this frame alone. Precondition: begin() or follow() was ok.
+  /// a result is a measurement of this frame alone. Precondition: begin() was ok.
   const SheetFitResult& follow(const cv::Mat& image, const SheetPrediction& prediction);
 
   const TrackDiagnosis& diagnosis() const;

@@ -12,21 +12,22 @@ namespace hogline::vision {
 /// A place on an edge (or on a thin line's middle) and what its pixel does when the parameters change.
 struct PlannedSite {
   int feature = 0;
-  double place = 0.0;         ///< on the feature: angle of a ring, x of a line across, y of a line along
-  int stretch = 0;            ///< number of the piece of the feature it lies on: neighbours share errors
-  bool step = true;           ///< an edge; false: a line with both its edges, located as one
-  int sense = 0;              ///< of an edge: 1 or -1, its colours change as the feature's do or the other way; 0: any
-  Eigen::Vector2d pixel;      ///< predicted
-  Eigen::Vector2d normal;     ///< unit, in the picture
-  ParameterRow along;         ///< d(normal . pixel)/d(parameters)
-  double width_px = 0.0;      ///< of the line between its edges; 0 for a step
-  double blur_px = 1.0;       ///< expected, standard deviation
-  double seen_blur_px = 0.0;  ///< when it was measured last; 0: never
-  double curvature = 0.0;     ///< the curve leaves its tangent by curvature / 2 * t^2 along the normal, 1/px
-  double floor_px = 0.05;     ///< error of paint, lens and model at one site, beside noise
-  double search_px = 0.0;     ///< how far from the prediction a wide look goes
-  double before_px = 0.0;     ///< room without other paint before the (first) edge ...
-  double after_px = 0.0;      ///< ... and after the (second) one
+  double place = 0.0;          ///< on the feature: angle of a ring, x of a line across, y of a line along
+  int stretch = 0;             ///< number of the piece of the feature it lies on: neighbours share errors
+  bool step = true;            ///< an edge; false: a line with both its edges, located as one
+  int sense = 0;               ///< of an edge: 1 or -1, its colours change as the feature's do or the other way; 0: any
+  Eigen::Vector2d pixel;       ///< predicted
+  Eigen::Vector2d normal;      ///< unit, in the picture
+  ParameterRow along;          ///< d(normal . pixel)/d(parameters)
+  double width_px = 0.0;       ///< of the line between its edges; 0 for a step
+  double blur_px = 1.0;        ///< expected, standard deviation
+  double curvature = 0.0;      ///< the curve leaves its tangent by curvature / 2 * t^2 along the normal, 1/px
+  double floor_px = 0.05;      ///< error of paint, lens and model at one site, beside noise
+  double search_px = 0.0;      ///< how far from the prediction a wide look goes
+  double before_px = 0.0;      ///< room without other paint before the (first) edge ...
+  double after_px = 0.0;       ///< ... and after the (second) one
+  double seen_blur_px = 0.0;   ///< when it was measured last; 0: never
+  double seen_contrast = 0.0;  ///< when moving edges saw it last, see MovingEdge; 0: never
 };
 
 struct SitePlan {
