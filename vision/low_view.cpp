@@ -12,6 +12,7 @@
 #include "vision/detect/line_classes.hpp"
 #include "vision/fit/sheet_fit.hpp"
 #include "vision/hog_line_evidence.hpp"
+#include "vision/low_percept.hpp"
 #include "vision/low_view_sketch.hpp"
 #include "vision/near_view_sketch.hpp"
 
@@ -25,12 +26,8 @@ constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
 constexpr double search_px = 10.0;
 constexpr int fewest_sideline_points = 40;
-constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
-constexpr double most_sigma_m = 0.3;          // far off, without sidelines, the body's rocking leaves as much
+constexpr double most_sigma_m = 0.3;  // far off, without sidelines, the body's rocking leaves as much
 constexpr double least_lean_sigma_rad = 0.001;
-constexpr double least_error_m = 0.0005;
-constexpr double roll_sigma_rad = 0.0017;
-constexpr double height_sigma_m = 0.003;
 
 /// A pose to start the joint fit from.
 struct Start {
@@ -68,8 +65,6 @@ struct LowView::Impl {
   SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
   std::string doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const;
-  SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
-  double lean_error_m(const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
 
   CameraSetup setup;
@@ -171,8 +166,8 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   fit_start.most_sigma_m = most_sigma_m;
   fit_start.pitch_offset_rad = start.lean_rad;
   fit_start.pitch_sigma_rad = start.lean_sigma_rad;
-  fit_start.roll_sigma_rad = roll_sigma_rad;
-  fit_start.height_sigma_m = height_sigma_m;
+  fit_start.roll_sigma_rad = low_mount::roll_sigma_rad;
+  fit_start.height_sigma_m = low_mount::height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
   SheetPosePercept seen;
   seen.stamp = stamp;
@@ -180,18 +175,13 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
   if (seen.reason.empty()) seen.reason = doubt_of_line(image, result);
   if (!seen.reason.empty()) return seen;
   if (sketch != nullptr) sketch->model = model_lines(result.eMc, setup, result.sheet_width_m);
-  return percept(result, stamp);
+  fill_low_percept(result, setup, seen);
+  return seen;
 }
 
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
-  const Eigen::Vector3d up = bMc(setup.mount).linear() * result.eMc.linear().row(2).transpose();
-  if (std::abs(up.x()) > 6.0 * lean_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
-    return "the fitted tilt is too far from the mount's";
-  }
-  if (std::abs(result.eMc.translation().z() - setup.mount.z_m) > 4.0 * height_sigma_m) {
-    return "the fitted height is too far from the mount's";
-  }
+  if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return why;
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
   const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
   if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
@@ -219,36 +209,6 @@ std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& star
 std::string LowView::Impl::doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const {
   const Picture picture{image.data, image.cols, image.rows, image.channels(), image.step[0]};
   return vision::doubt(weigh_hog_line(picture, response, {view.lens(), result.eMc, setup.ice}));
-}
-
-SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stamp) const {
-  SheetPosePercept p;
-  p.ok = true;
-  p.stamp = stamp;
-  p.body = result.body;
-  p.sigma = result.sigma;
-  p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
-  p.hog_distance_sigma_m = std::hypot(result.hog_distance_sigma_m, lean_error_m(result));
-  p.sigma.y_m = p.hog_distance_sigma_m;
-  p.sheet_width_m = result.sheet_width_m;
-  p.eMc = row_major(result.eMc);
-  p.residual_px = result.residual_px;
-  p.sites_used = result.sites_used;
-  p.sites_tried = result.sites_tried;
-  for (const FittedFeature& f : result.features) {
-    if (f.sites_used > 0) p.features.push_back(f.name);
-  }
-  return p;
-}
-
-// Without a ring the lean comes from sidelines, which are not laid as parallel as the fit takes them to be.
-double LowView::Impl::lean_error_m(const SheetFitResult& result) const {
-  const bool ring = std::any_of(result.features.begin(), result.features.end(),
-                                [](const FittedFeature& f) { return f.name.ends_with("_ring") && f.sites_used >= 24; });
-  if (ring) return least_error_m;
-  const double z = setup.mount.z_m;
-  const double ahead = rules::tee_to_hog_m - result.eMc.translation().y();
-  return std::hypot(least_error_m, sideline_lean_rad * (ahead * ahead + z * z) / z);
 }
 
 std::string LowView::Impl::why_no_hog_line(int too_thin) const {
