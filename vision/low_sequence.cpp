@@ -14,7 +14,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr double acquired_search_px = 3.0;
-constexpr double any_sigma_m = 10.0;    // the tracker goes on where the distance can not be told
+constexpr double any_sigma_m = 1e6;     // the tracker goes on where the distance can not be told
 constexpr double most_sigma_m = 0.3;    // of what is reported as seen
 constexpr double most_across_m = 0.05;  // of the place across the sheet, beside a dead-reckoned distance
 constexpr double rock_rad = 0.002;      // of pitch, from frame to frame
@@ -41,10 +41,12 @@ struct LowSequence::Impl {
 
   void clear(Stamp stamp);
   bool follow(const cv::Mat& image, Stamp stamp);
+  bool take(const SheetFitResult& result, Stamp stamp);
   bool hog_line_seen(const SheetFitResult& result) const;
   bool take_blind(const SheetFitResult& result, Stamp stamp);
   void acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch);
-  bool dead_reckon(Stamp stamp);
+  bool dead_reckon(const cv::Mat& image, Stamp stamp);
+  const SheetFitResult& begin(const cv::Mat& image, const Pose& near_by);
   SheetPrediction predict_camera(Stamp stamp) const;
   LowViewPrediction predict_body(Stamp stamp) const;
   bool hog_line_below(const PlanarPose& body) const;
@@ -83,7 +85,7 @@ const SheetPosePercept& LowSequence::step(const cv::Mat& image, Stamp stamp, Low
 
   if (impl_->follow(image, stamp)) {
     if (sketch != nullptr) sketch->model = model_lines(impl_->eMc, impl_->setup, impl_->percept.sheet_width_m);
-  } else if (!impl_->dead_reckon(stamp)) {
+  } else if (!impl_->dead_reckon(image, stamp)) {
     impl_->acquire(image, stamp, sketch);
   }
   return impl_->percept;
@@ -119,6 +121,12 @@ bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
   diagnosis.places = track.diagnosis().places;
   diagnosis.search_px = track.diagnosis().search_px;
   diagnosis.innovation = track.diagnosis().innovation;
+  if (!take(result, stamp)) return false;
+  ++diagnosis.frames_tracked;
+  return true;
+}
+
+bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
   if (!result.ok) return give_up(result.reason);
   if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return give_up(std::move(why));
   if (!hog_line_seen(result)) {
@@ -133,7 +141,6 @@ bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
   eMc = from_row_major(percept.eMc);
   body = percept.body;
   diagnosis.tracked = true;
-  ++diagnosis.frames_tracked;
   return true;
 }
 
@@ -162,12 +169,16 @@ bool LowSequence::Impl::take_blind(const SheetFitResult& result, Stamp stamp) {
   return true;
 }
 
-// Nothing can be tracked, and the line is expected below the picture: a line that should be in view and is not was not
-// seen.
-bool LowSequence::Impl::dead_reckon(Stamp stamp) {
+// The track was lost, and the line is expected below the picture: a line that should be in view and is not was not
+// seen. What else is painted may be found again.
+bool LowSequence::Impl::dead_reckon(const cv::Mat& image, Stamp stamp) {
   if (along.empty() || !along.known() || seconds(stamp - along.last_stamp()) > longest_blind_s) return false;
   const RunPlace reckoned = place(stamp);
   if (!hog_line_below(reckoned.body)) return false;
+  const std::string lost = diagnosis.lost;
+  tracking = take(begin(image, predict_camera(stamp).eMc), stamp);
+  diagnosis.lost = lost;
+  if (tracking) return true;
   percept.ok = true;
   percept.body = reckoned.body;
   percept.sigma = reckoned.sigma;
@@ -196,15 +207,19 @@ void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch
   eMc = from_row_major(percept.eMc);
   body = percept.body;
 
+  tracking = begin(image, eMc).ok;
+}
+
+const SheetFitResult& LowSequence::Impl::begin(const cv::Mat& image, const Pose& near_by) {
   SheetFitStart start;
-  start.eMc = eMc;
+  start.eMc = near_by;
   start.search_px = acquired_search_px;
-  start.sheet_width_m = percept.sheet_width_m;
+  start.sheet_width_m = width_m;
   start.most_sigma_m = any_sigma_m;
   start.pitch_sigma_rad = lean_sigma_rad;
   start.roll_sigma_rad = low_mount::roll_sigma_rad;
   start.height_sigma_m = low_mount::height_sigma_m;
-  tracking = track.begin(image, start).ok;
+  return track.begin(image, start);
 }
 
 RunPlace LowSequence::Impl::place(Stamp stamp) const {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double acceleration_sigma_mps2 = 0.8;  // of a run: 0.9 m/s2 at most
 constexpr double jerk_sigma_mps3 = 2.0;
+constexpr double sway_mps = 0.02;  // a camera half a metre up on a body that rocks is as much faster or slower
 constexpr double across_sigma_mps2 = 0.2;
 constexpr double yaw_acceleration_sigma_radps2 = 0.2;
 constexpr double fastest_mps = 3.5;
@@ -91,7 +92,7 @@ RunPlace RunMotion::at(Stamp stamp) const {
   }
   for (Path* path : {&x, &y, &yaw}) path->solve();
   return {.body = {x.value(dt_s), y.value(dt_s), wrapped(yaw.value(dt_s))},
-          .sigma = {x.sigma(dt_s), y.sigma(dt_s), yaw.sigma(dt_s)}};
+          .sigma = {x.sigma(dt_s), std::hypot(y.sigma(dt_s), sway_mps * dt_s), yaw.sigma(dt_s)}};
 }
 
 double RunMotion::speed_mps(Stamp stamp) const {
