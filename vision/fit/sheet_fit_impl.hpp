@@ -29,7 +29,7 @@ struct SheetFit::Impl {
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
   double borne_out() const;
-  bool sidelines_borne_out() const;
+  bool sideline_borne_out(int side) const;
   bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
                    const std::optional<Consensus>& consensus);

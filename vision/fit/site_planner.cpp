@@ -19,7 +19,7 @@ constexpr double border_px = 3.0;
 
 // The cut that a close look takes through a site lies in the picture.
 bool measurable(const Lens& lens, const PlannedSite& site) {
-  constexpr double search_px = 2.5;
+  constexpr double search_px = 1.5;
   const double window_px = 3.0 * site.blur_px + 3.0;
   const Eigen::Vector2d before = (0.5 * site.width_px + std::min(site.before_px, window_px) + search_px) * site.normal;
   const Eigen::Vector2d after = (0.5 * site.width_px + std::min(site.after_px, window_px) + search_px) * site.normal;
@@ -160,7 +160,7 @@ struct Planner {
       site.stretch = stretch;
       site.sense = 1;
       site.curvature = curvature(curve, u, site, seen);
-      if (measurable(camera.lens(), site)) sites.push_back(site);
+      sites.push_back(site);
     });
   }
 
@@ -186,7 +186,7 @@ struct Planner {
       site.after_px -= 0.5 * site.width_px;
       if (std::min(site.before_px, site.after_px) < least_room_px(site.blur_px)) return;
       move_by_sideline(middle, seen, edge_parameter, 0.5, moves_camera, site);
-      if (measurable(camera.lens(), site)) sites.push_back(site);
+      sites.push_back(site);
     });
   }
 
@@ -211,7 +211,7 @@ struct Planner {
     } else if (edge_parameter >= 0 || curve.shape == PaintShape::across) {
       site.after_px = std::min(site.after_px, other_px);
     }
-    if (measurable(camera.lens(), site)) sites.push_back(site);
+    sites.push_back(site);
   }
 
   void sideline(int feature, int which, double side) const {
