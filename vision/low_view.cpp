@@ -27,7 +27,7 @@ constexpr std::size_t most_tries = 3;
 constexpr double search_px = 10.0;
 constexpr int fewest_sideline_points = 40;
 constexpr double most_sigma_m = 0.3;  // far off, without sidelines, the body's rocking leaves as much
-constexpr double least_lean_sigma_rad = 0.001;
+constexpr double least_lean_sigma_rad = 0.0006;
 
 /// A pose to start the joint fit from.
 struct Start {

@@ -28,7 +28,7 @@ TEST(low_sequence, carries_the_distance_on_when_the_line_has_left_the_picture) {
   LowSequence sequence(setup);
   int dead_reckoned = 0;
   double last_sigma_m = 0.0;
-  for (int frame = 0; frame < 12; ++frame) {
+  for (int frame = 0; frame < 13; ++frame) {
     SCOPED_TRACE(frame);
     const PaintedSheet sheet = run_frame(setup, frame);
     const SheetPosePercept& seen = sequence.step(paint(setup, sheet), at(frame));
