@@ -33,7 +33,8 @@ struct NearSequence::Impl {
 
   bool follow(const cv::Mat& image, Stamp stamp, std::optional<double> yaw_increment_rad);
   void acquire(const cv::Mat& image, Stamp stamp, NearViewSketch* sketch);
-  SheetPrediction predict(Stamp stamp, std::optional<double> yaw_increment_rad) const;
+  enum class Trust { usual, little };
+  SheetPrediction predict(Stamp stamp, std::optional<double> turned, Trust trust) const;
   void clear(Stamp stamp);
 
   CameraSetup setup;
@@ -94,11 +95,15 @@ bool NearSequence::Impl::follow(const cv::Mat& image, Stamp stamp, std::optional
     return false;
   }
   const std::optional<double> turned = yaw_increment_rad ? std::optional(turned_rad) : std::nullopt;
-  const SheetFitResult& result = track.follow(image, predict(stamp, turned));
+  if (!track.follow(image, predict(stamp, turned, Trust::usual)).ok) {
+    // A jerk, or a gyro that errs: a wide search costs a twentieth of an acquisition.
+    track.follow(image, predict(stamp, std::nullopt, Trust::little));
+  }
   diagnosis.places = track.diagnosis().places;
   diagnosis.moved = track.diagnosis().moved;
   diagnosis.search_px = track.diagnosis().search_px;
   diagnosis.innovation = track.diagnosis().innovation;
+  const SheetFitResult& result = track.result();
   if (!result.ok) {
     diagnosis.lost = result.reason;
     return false;
@@ -129,17 +134,17 @@ void NearSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, NearViewSket
 }
 
 // The camera as it was in the newest place, moved with the body; the rest is what a body can do in a frame.
-SheetPrediction NearSequence::Impl::predict(Stamp stamp, std::optional<double> turned) const {
+SheetPrediction NearSequence::Impl::predict(Stamp stamp, std::optional<double> turned, Trust trust) const {
+  const bool known = motion.known() && trust == Trust::usual;
   const double dt_s = seconds(stamp - motion.last_stamp());
   PlanarPose body = motion.at(stamp);
-  double yaw_sigma_rad =
-      motion.known() ? lag_frames2 * yaw_acceleration_radps2 * dt_s * dt_s : unknown_yaw_rate_radps * dt_s;
+  double yaw_sigma_rad = known ? lag_frames2 * yaw_acceleration_radps2 * dt_s * dt_s : unknown_yaw_rate_radps * dt_s;
   if (turned) {
     body.yaw_rad = motion.last().yaw_rad + *turned;
     yaw_sigma_rad = std::hypot(gyro_sigma_rad, gyro_scale_sigma * *turned);
   }
   const double place_sigma_m =
-      least_sigma_m + (motion.known() ? lag_frames2 * acceleration_mps2 * dt_s * dt_s : unknown_speed_mps * dt_s);
+      least_sigma_m + (known ? lag_frames2 * acceleration_mps2 * dt_s * dt_s : unknown_speed_mps * dt_s);
 
   SheetPrediction prediction;
   prediction.eMc = eMb(body) * eMb(motion.last()).inverse() * eMc;

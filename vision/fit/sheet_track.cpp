@@ -214,6 +214,7 @@ const SheetFitResult& SheetTrack::follow(const cv::Mat& image, const SheetPredic
   return impl_->follow(image, prediction);
 }
 
+const SheetFitResult& SheetTrack::result() const { return impl_->fit.result; }
 const TrackDiagnosis& SheetTrack::diagnosis() const { return impl_->diagnosis; }
 
 }  // namespace hogline::vision

@@ -41,6 +41,8 @@ class SheetTrack {
   /// a result is a measurement of this frame alone. Precondition: begin() was ok.
   const SheetFitResult& follow(const cv::Mat& image, const SheetPrediction& prediction);
 
+  /// What begin() or follow() returned last.
+  const SheetFitResult& result() const;
   const TrackDiagnosis& diagnosis() const;
 
  private:
