@@ -33,15 +33,16 @@ struct NearSequence::Impl {
 
   bool follow(const cv::Mat& image, Stamp stamp, std::optional<double> yaw_increment_rad);
   void acquire(const cv::Mat& image, Stamp stamp, NearViewSketch* sketch);
-  SheetPrediction predict(Stamp stamp, std::optional<double> yaw_increment_rad) const;
+  enum class Trust { usual, little };
+  SheetPrediction predict(Stamp stamp, std::optional<double> turned, Trust trust) const;
   void clear(Stamp stamp);
 
   CameraSetup setup;
   NearView view;
   SheetTrack track;
-  PlanarMotion motion;      // empty: nothing to track
-  Pose eMc;                 // at the newest place of the motion
-  double turned_rad = 0.0;  // by the gyro since then
+  PlanarMotion motion;                     // empty: nothing to track
+  Pose eMc;                                // at the newest place of the motion
+  std::optional<double> turned_rad = 0.0;  // by the gyro since then; nothing when it did not speak for every frame
   std::optional<Stamp> last_stamp;
   SheetPosePercept percept;
   NearSequenceDiagnosis diagnosis;
@@ -88,17 +89,20 @@ bool NearSequence::Impl::follow(const cv::Mat& image, Stamp stamp, std::optional
     diagnosis.lost = "no frame before shows the sheet";
     return false;
   }
-  turned_rad += yaw_increment_rad.value_or(0.0);
+  turned_rad = turned_rad && yaw_increment_rad ? std::optional(*turned_rad + *yaw_increment_rad) : std::nullopt;
   if (seconds(stamp - motion.last_stamp()) > longest_gap_s) {
     diagnosis.lost = "the frames before are too old";
     return false;
   }
-  const std::optional<double> turned = yaw_increment_rad ? std::optional(turned_rad) : std::nullopt;
-  const SheetFitResult& result = track.follow(image, predict(stamp, turned));
+  if (!track.follow(image, predict(stamp, turned_rad, Trust::usual)).ok) {
+    // A jerk, or a gyro that errs: a wide search costs a twentieth of an acquisition.
+    track.follow(image, predict(stamp, std::nullopt, Trust::little));
+  }
   diagnosis.places = track.diagnosis().places;
   diagnosis.moved = track.diagnosis().moved;
   diagnosis.search_px = track.diagnosis().search_px;
   diagnosis.innovation = track.diagnosis().innovation;
+  const SheetFitResult& result = track.result();
   if (!result.ok) {
     diagnosis.lost = result.reason;
     return false;
@@ -129,17 +133,17 @@ void NearSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, NearViewSket
 }
 
 // The camera as it was in the newest place, moved with the body; the rest is what a body can do in a frame.
-SheetPrediction NearSequence::Impl::predict(Stamp stamp, std::optional<double> turned) const {
+SheetPrediction NearSequence::Impl::predict(Stamp stamp, std::optional<double> turned, Trust trust) const {
+  const bool known = motion.known() && trust == Trust::usual;
   const double dt_s = seconds(stamp - motion.last_stamp());
   PlanarPose body = motion.at(stamp);
-  double yaw_sigma_rad =
-      motion.known() ? lag_frames2 * yaw_acceleration_radps2 * dt_s * dt_s : unknown_yaw_rate_radps * dt_s;
+  double yaw_sigma_rad = known ? lag_frames2 * yaw_acceleration_radps2 * dt_s * dt_s : unknown_yaw_rate_radps * dt_s;
   if (turned) {
     body.yaw_rad = motion.last().yaw_rad + *turned;
     yaw_sigma_rad = std::hypot(gyro_sigma_rad, gyro_scale_sigma * *turned);
   }
   const double place_sigma_m =
-      least_sigma_m + (motion.known() ? lag_frames2 * acceleration_mps2 * dt_s * dt_s : unknown_speed_mps * dt_s);
+      least_sigma_m + (known ? lag_frames2 * acceleration_mps2 * dt_s * dt_s : unknown_speed_mps * dt_s);
 
   SheetPrediction prediction;
   prediction.eMc = eMb(body) * eMb(motion.last()).inverse() * eMc;

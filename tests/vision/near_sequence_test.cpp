@@ -249,6 +249,20 @@ TEST(NearSequence, SurvivesAGyroThatLies) {
   }
 }
 
+// Told nothing by a gyro, and turning the other way from one frame to the next: at 20 degrees a second and back.
+TEST(NearSequence, FollowsAJerkWithoutAnAcquisition) {
+  const TurningSequence sequence(turning_move(8));
+  NearSequence near(sequence.setup());
+  int stamp = 0;
+  for (const int k : {30, 31, 32, 33, 34, 33, 32, 31, 32, 33}) {
+    const TurningFrame frame = sequence.frame(k);
+    const SheetPosePercept& p = near.step(frame.bgr, at_frame(stamp++));
+    ASSERT_TRUE(p.ok) << p.reason;
+    EXPECT_TRUE(stamp == 1 || near.diagnosis().tracked) << "frame " << stamp << ": " << near.diagnosis().lost;
+    EXPECT_NEAR(p.body.yaw_rad, frame.body.yaw_rad, 0.005 * degree);
+  }
+}
+
 TEST(NearSequence, GivesTheSameAnswersAgain) {
   const TurningSequence sequence(turning_move_among_people(4));
   std::vector<double> first;

@@ -101,7 +101,8 @@ struct Planner {
   const SheetCamera& camera_for(const Curve& curve) const { return curve.on_surface ? over_surface : camera; }
 
   // One site: what all kinds share. False when it can not be used.
-  bool place(int feature, const Curve& curve, double u, const PaintProjection& seen, PlannedSite& site) const {
+  bool place(int feature, const Curve& curve, double u, const PaintProjection& seen, PlannedSite& site,
+             Eigen::Vector2d& per_px) const {
     site.feature = feature;
     site.place = u;
     if (!project(curve, u, seen, site)) return false;
@@ -109,8 +110,9 @@ struct Planner {
     const Eigen::Matrix2d to_ground = seen.by_paint.inverse();
     const double travelled_px = std::abs(site.normal.dot(seen.by_paint.col(1))) * plan.travel_m;
     site.blur_px = std::hypot(plan.optical_blur_px, travelled_px / std::sqrt(12.0));
-    const GroundCut cut{curve.at(u), to_ground * site.normal, to_ground * tangent};
-    const Room room = room_around(cut, feature, state, 1.0 + 2.0 * site.blur_px, 40.0);
+    per_px = to_ground * site.normal;
+    const Eigen::Vector2d beside = to_ground * tangent;
+    const Room room = room_around({curve.at(u), per_px, beside}, feature, state, 1.0 + 2.0 * site.blur_px, 40.0);
     site.before_px = room.before_px;
     site.after_px = room.after_px;
     const double least = least_room_px(site.blur_px);
@@ -156,7 +158,8 @@ struct Planner {
     const Curve curve{PaintShape::ring, radius_m, 1.0};
     walk(curve, -std::numbers::pi, std::numbers::pi, [&](double u, const PaintProjection& seen, int stretch) {
       PlannedSite site;
-      if (!place(feature, curve, u, seen, site)) return;
+      Eigen::Vector2d per_px;
+      if (!place(feature, curve, u, seen, site, per_px)) return;
       site.stretch = stretch;
       site.sense = 1;
       site.curvature = curvature(curve, u, site, seen);
@@ -171,7 +174,8 @@ struct Planner {
     const Curve middle{shape, 0.5 * (first_m + second_m), side};
     walk(middle, begin, end, [&](double u, const PaintProjection& seen, int stretch) {
       PlannedSite site;
-      if (!place(feature, middle, u, seen, site)) return;
+      Eigen::Vector2d per_px;
+      if (!place(feature, middle, u, seen, site, per_px)) return;
       site.stretch = stretch;
       const Curve first{shape, first_m, side};
       const Curve second{shape, second_m, side};
@@ -196,7 +200,8 @@ struct Planner {
     const auto seen = camera_for(curve).project_paint_with_jacobian(curve.at(u));
     if (!seen || !camera.lens().in_picture(seen->pixel, border_px)) return;
     PlannedSite site;
-    if (!place(feature, curve, u, *seen, site)) return;
+    Eigen::Vector2d per_px;
+    if (!place(feature, curve, u, *seen, site, per_px)) return;
     site.stretch = stretch;
     site.sense = by_width > 0.0 ? -1 : 1;
     move_by_sideline(curve, *seen, edge_parameter, by_width, moves_camera, site);
