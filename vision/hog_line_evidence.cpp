@@ -7,144 +7,83 @@
 #include <vector>
 
 #include "vision/geometry/sheet.hpp"
+#include "vision/line_cut.hpp"
 
 namespace hogline::vision {
 namespace {
 
-using Light = Eigen::Vector3f;
-
 constexpr double half_width_m = 2.1;  // of the narrowest sheet, nearly
-constexpr double clear_of_centre_m = 0.06;
-constexpr double column_step_px = 8.0;
-constexpr double blurred_px = 2.0;        // what lies so close to an edge may be of both sides
-constexpr double wide_px = 6.0;           // from here on its two edges are seen each for itself
-constexpr float least_contrast = 0.012F;  // of full light
-constexpr float unlike_sides = 0.6F;      // of the contrast
-constexpr float unlike_ice = 0.35F;       // of the ice's own light
-constexpr int fewest_columns = 16;
+constexpr double clear_m = 0.06;      // of other lines
+constexpr double step_px = 8.0;
+constexpr double farthest_m = 8.0;  // from the camera, of the centre line
+constexpr int fewest_cuts = 16;
 constexpr double least_seen = 0.3;
 constexpr double most_bare = 0.3;
 constexpr int fewest_of_a_half = 8;
-constexpr int tangent_px = 3;  // each look is a mean over so many to either side
 
-std::optional<Light> light_at(const Picture& picture, const ResponseCurve& response, const Eigen::Vector2d& pixel,
-                              const Eigen::Vector2d& normal) {
-  Profile one;
-  if (!sample(picture, response, {pixel, normal, 0.0, 0.0, 1.0, tangent_px}, one)) return std::nullopt;
-  Light light = Light::Zero();
-  for (int c = 0; c < one.channels; ++c) light[c] = one.light[static_cast<std::size_t>(c)][0];
-  return light;
-}
-
-/// One cut through the line.
-struct Column {
-  double x_m = 0.0;
-  Light ice = Light::Zero();    ///< beside the line
-  Light paint = Light::Zero();  ///< less the ice
-  float sides = 0.0F;           ///< how far the two sides differ
-  /// Far outside, far inside, near inside, near outside, less the ice; of a wide line.
-  Eigen::Matrix<float, 3, 4> edges = Eigen::Matrix<float, 3, 4>::Zero();
-  bool wide = false;
+/// Cuts along a line, evenly spaced in the picture, and where they were made.
+struct Cuts {
+  std::vector<LineCut> cuts;
+  std::vector<double> at_m;
 };
 
-class Cutter {
- public:
-  Cutter(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera)
-      : picture_(picture), response_(response), camera_(camera) {}
-
-  /// Nothing where the picture does not show the line with its sides.
-  std::optional<Column> cut(double x_m) const {
-    constexpr double beside_m = 0.02;
-    const auto near = camera_.project_paint({x_m, rules::tee_to_hog_m});
-    const auto far = camera_.project_paint({x_m, rules::tee_to_hog_m + rules::hog_line_width_m});
-    const auto beside = camera_.project_paint({x_m + beside_m, rules::tee_to_hog_m});
-    if (!near || !far || !beside) return std::nullopt;
-    const Eigen::Vector2d along = (*beside - *near).normalized();
-    const Eigen::Vector2d up(along.y(), -along.x());
-    const double width = up.dot(*far - *near);
-    if (!(width > 0.1)) return std::nullopt;
-    const Eigen::Vector2d middle = *near + 0.5 * width * up;
-    const double half = 0.5 * width;
-    const double side = half + blurred_px + std::max(1.0, 0.15 * width);
-    const auto at = [&](double t) { return light_at(picture_, response_, middle + t * up, up); };
-    const auto inside = at(0.0);
-    const auto before = at(-side);
-    const auto after = at(side);
-    if (!inside || !before || !after) return std::nullopt;
-    const Light ice = 0.5F * (*before + *after);
-    Column c;
-    c.x_m = x_m;
-    c.ice = ice;
-    c.paint = *inside - ice;
-    c.sides = (*after - *before).norm();
-    c.wide = width > wide_px;
-    if (!c.wide) return c;
-    const double margin = std::max(0.18 * width, 1.5);
-    int k = 0;
-    for (const double t : {half + margin, half - margin, -half + margin, -half - margin}) {
-      const auto light = at(t);
-      if (!light) return std::nullopt;
-      c.edges.col(k++) = *light - ice;
+/// `place_at(u)` is the line's place at u, `use(u)` says whether to cut there.
+template <typename PlaceAt, typename Use>
+Cuts cut_along(const LineCutter& cutter, double begin_m, double end_m, const PlaceAt& place_at, const Use& use) {
+  constexpr double probe_m = 0.02;
+  Cuts found;
+  double step_m = probe_m;
+  for (double u = begin_m; u < end_m; u += step_m) {
+    const auto a = cutter.camera().project_paint(place_at(u).first_edge);
+    const auto b = cutter.camera().project_paint(place_at(u + probe_m).first_edge);
+    step_m = a && b ? std::clamp(probe_m * step_px / std::max((*b - *a).norm(), 1e-3), 0.004, 0.25) : probe_m;
+    if (!use(u)) continue;
+    if (const auto cut = cutter.cut(place_at(u))) {
+      found.cuts.push_back(*cut);
+      found.at_m.push_back(u);
     }
-    return c;
   }
-
-  const SheetCamera& camera() const { return camera_; }
-
- private:
-  const Picture& picture_;
-  const ResponseCurve& response_;
-  const SheetCamera& camera_;
-};
-
-// Evenly spaced in the picture.
-std::vector<Column> cut_all(const Cutter& cutter) {
-  std::vector<Column> columns;
-  double step_m = 0.02;
-  for (double x = -half_width_m; x < half_width_m; x += step_m) {
-    const auto a = cutter.camera().project_paint({x, rules::tee_to_hog_m});
-    const auto b = cutter.camera().project_paint({x + 0.02, rules::tee_to_hog_m});
-    step_m = a && b ? std::clamp(0.02 * column_step_px / std::max((*b - *a).norm(), 1e-3), 0.004, 0.1) : 0.02;
-    if (std::abs(x) < clear_of_centre_m) continue;
-    if (const auto column = cutter.cut(x)) columns.push_back(*column);
-  }
-  return columns;
+  return found;
 }
 
-// The paint's colour against the ice's, and how strong it is as a rule.
-struct Paint {
-  Light direction = Light::Zero();
-  float contrast = 0.0F;
-};
+LinePlace hog_line_at(double x_m) { return {{x_m, rules::tee_to_hog_m}, {0.0, rules::hog_line_width_m}, {1.0, 0.0}}; }
 
-Paint paint_of(const std::vector<Column>& columns) {
-  Paint paint;
-  for (const Column& c : columns) paint.direction += c.paint;
-  paint.direction.normalize();
-  std::vector<float> along;
-  for (const Column& c : columns) along.push_back(c.paint.dot(paint.direction));
-  const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
-  std::nth_element(along.begin(), middle, along.end());
-  paint.contrast = *middle;
-  return paint;
+LinePlace centre_line_at(double y_m) {
+  return {{-0.5 * rules::thin_line_width_m, y_m}, {rules::thin_line_width_m, 0.0}, {0.0, 1.0}};
 }
 
-enum class Look { line, even, hidden };
+void count(LineLook look, LineStretch& stretch) {
+  ++stretch.looked;
+  stretch.seen += look == LineLook::line ? 1 : 0;
+  stretch.bare += look == LineLook::bare ? 1 : 0;
+}
 
-Look look_of(const Column& c, const Paint& paint) {
-  const float along = c.paint.dot(paint.direction);
-  if (c.paint.norm() < 0.3F * paint.contrast && c.sides < 0.5F * paint.contrast) return Look::even;
-  if (along < 0.4F * paint.contrast || along < (c.wide ? 0.85F : 0.6F) * c.paint.norm()) return Look::hidden;
-  if (c.sides > unlike_sides * along) return Look::hidden;
-  if (!c.wide) return Look::line;
-  const auto share = [&](int k) { return c.edges.col(k).dot(paint.direction) / along; };
-  const bool both_edges = share(0) < 0.5F && share(1) > 0.5F && share(2) > 0.5F && share(3) < 0.5F;
-  return both_edges ? Look::line : Look::hidden;
+void weigh_halves(const LineCutter& cutter, HogLineEvidence& evidence) {
+  const Cuts hog =
+      cut_along(cutter, -half_width_m, half_width_m, hog_line_at, [](double x) { return std::abs(x) > clear_m; });
+  const std::vector<LineLook> looks = looks_of(hog.cuts);
+  for (std::size_t i = 0; i < looks.size(); ++i) count(looks[i], hog.at_m[i] < 0.0 ? evidence.left : evidence.right);
+}
+
+// Beside rings and other lines; they are of other colours.
+LineStretch weigh_centre(const LineCutter& cutter) {
+  const auto alone = [](double y) {
+    if (std::abs(y) < rules::outer_ring_radius_m + clear_m) return false;
+    return std::ranges::none_of(cross_lines(), [y](const CrossLine& line) {
+      return y > line.near_edge_y_m - clear_m && y < line.far_edge_y_m + clear_m;
+    });
+  };
+  const double camera_y_m = cutter.camera().eMc().translation().y();
+  const Cuts centre = cut_along(cutter, camera_y_m + 0.1, camera_y_m + farthest_m, centre_line_at, alone);
+  LineStretch stretch;
+  for (const LineLook look : looks_of(centre.cuts)) count(look, stretch);
+  stretch.looked = static_cast<int>(centre.cuts.size());
+  return stretch;
 }
 
 // The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
 // between the ice around it and the white ring inside it, wherever one looks.
-bool house_beyond(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera) {
+bool house_beyond(const LineCutter& cutter) {
   const Eigen::Vector2d tee(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
   const double ice_m = rules::outer_ring_radius_m + 0.25;
   const double ring_m = 0.5 * (rules::outer_ring_radius_m + rules::middle_ring_radius_m);
@@ -155,9 +94,9 @@ bool house_beyond(const Picture& picture, const ResponseCurve& response, const S
   for (int k = 1; k < directions; ++k) {
     const double angle = -std::numbers::pi * (k - 0.25) / directions;  // none along the centre line
     const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
-    const auto look = [&](double radius) -> std::optional<Light> {
-      const auto pixel = camera.project_paint(tee + radius * out);
-      return pixel ? light_at(picture, response, *pixel, {0.0, 1.0}) : std::nullopt;
+    const auto look = [&](double radius) -> std::optional<Eigen::Vector3f> {
+      const auto pixel = cutter.camera().project_paint(tee + radius * out);
+      return pixel ? cutter.light_at(*pixel, {1.0, 0.0}) : std::nullopt;
     };
     const auto ice = look(ice_m);
     const auto ring = look(ring_m);
@@ -173,41 +112,25 @@ bool house_beyond(const Picture& picture, const ResponseCurve& response, const S
 }  // namespace
 
 HogLineEvidence weigh_hog_line(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera) {
+  const LineCutter cutter(picture, response, camera);
   HogLineEvidence evidence;
-  const std::vector<Column> columns = cut_all(Cutter(picture, response, camera));
-  if (columns.empty()) return evidence;
-  const Paint paint = paint_of(columns);
-  if (paint.contrast < least_contrast) return evidence;
-  std::vector<Look> looks;
-  Light ice = Light::Zero();
-  int lines = 0;
-  for (const Column& c : columns) {
-    looks.push_back(look_of(c, paint));
-    if (looks.back() != Look::line) continue;
-    ice += c.ice;
-    ++lines;
-  }
-  ice /= static_cast<float>(std::max(lines, 1));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    HogLineHalf& half = columns[i].x_m < 0.0 ? evidence.left : evidence.right;
-    const bool bare = looks[i] == Look::even && (columns[i].ice - ice).norm() < unlike_ice * ice.norm();
-    ++half.looked;
-    half.seen += looks[i] == Look::line ? 1 : 0;
-    half.bare += bare ? 1 : 0;
-  }
-  evidence.house_beyond = house_beyond(picture, response, camera);
+  weigh_halves(cutter, evidence);
+  evidence.centre = weigh_centre(cutter);
+  evidence.house_beyond = house_beyond(cutter);
   return evidence;
 }
 
 std::string doubt(const HogLineEvidence& evidence) {
   const int looked = evidence.left.looked + evidence.right.looked;
   const int seen = evidence.left.seen + evidence.right.seen;
-  if (looked < fewest_columns) return "too little of the hog line is in the picture";
-  if (seen < least_seen * looked) return "what lies across is not as a hog line should be";
-  for (const HogLineHalf& half : {evidence.left, evidence.right}) {
+  if (looked < fewest_cuts || seen < least_seen * looked) return "what lies across is not as a hog line should be";
+  for (const LineStretch& half : {evidence.left, evidence.right}) {
     if (half.looked >= fewest_of_a_half && half.bare > most_bare * half.looked) {
       return "what lies across ends within the sheet";
     }
+  }
+  if (evidence.centre.looked >= fewest_cuts && evidence.centre.seen < least_seen * evidence.centre.looked) {
+    return "the centre line is not where the pose puts it";
   }
   if (evidence.house_beyond) return "a house lies beyond the line: it is the other end's";
   return {};

@@ -24,6 +24,13 @@ double lean_error_m(const SheetFitResult& result, const CameraSetup& setup) {
   return std::hypot(least_error_m, sideline_lean_rad * (ahead * ahead + z * z) / z);
 }
 
+// A fit that lifts the camera off its mount has been fed a wrong lens or response curve: it errs in the distance by as
+// large a share as in the height.
+double lifted_error_m(const Pose& eMc, const CameraSetup& setup) {
+  const double lifted_m = std::abs(eMc.translation().z() - setup.mount.z_m) - low_mount::height_sigma_m;
+  return std::max(0.0, lifted_m) / setup.mount.z_m * std::abs(rules::tee_to_hog_m - eMc.translation().y());
+}
+
 }  // namespace
 
 std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup) {
@@ -39,7 +46,8 @@ std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup) {
 
 void fill_low_percept(const SheetFitResult& result, const CameraSetup& setup, SheetPosePercept& percept) {
   fill_percept(result, percept);
-  percept.hog_distance_sigma_m = std::hypot(result.hog_distance_sigma_m, lean_error_m(result, setup));
+  percept.hog_distance_sigma_m =
+      std::hypot(result.hog_distance_sigma_m, lean_error_m(result, setup), lifted_error_m(result.eMc, setup));
   percept.sigma.y_m = percept.hog_distance_sigma_m;
 }
 
