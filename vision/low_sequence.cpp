@@ -13,6 +13,7 @@
 namespace hogline::vision {
 namespace {
 
+constexpr std::size_t most_features = 20;
 constexpr double acquired_search_px = 3.0;
 constexpr double any_sigma_m = 1e6;     // the tracker goes on where the distance can not be told
 constexpr double most_sigma_m = 0.3;    // of what is reported as seen
@@ -36,7 +37,7 @@ const FittedFeature* hog_line_of(const SheetFitResult& result) {
 struct LowSequence::Impl {
   Impl(const CameraSetup& camera_setup, double exposure)
       : setup(camera_setup), lens(camera_setup.intrinsics), exposure_s(exposure), view(setup), track(setup) {
-    percept.features.reserve(20);
+    percept.features.reserve(most_features);
   }
 
   void clear(Stamp stamp);
@@ -200,6 +201,7 @@ void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch
   }
   percept = view.acquire(image, stamp, predict_body(stamp), sketch);
   if (!percept.ok) return;
+  percept.features.reserve(most_features);
   percept.features.insert(percept.features.begin(), "acquired");
   if (percept.sheet_width_m) width_m = percept.sheet_width_m;
   along.add(stamp, {percept.body, percept.sigma});
