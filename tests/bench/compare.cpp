@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <opencv2/core/utility.hpp>
@@ -18,6 +19,7 @@ namespace {
 struct Options {
   std::vector<std::string> scenes{HOGLINE_TEST_DATA "/near", HOGLINE_TEST_DATA "/skip"};
   std::string write_to;
+  std::vector<std::string> only;
   bool smoke = false;
   bool every_frame = false;
 };
@@ -62,7 +64,12 @@ int run(const Options& options) {
   for (const std::string& folder : options.scenes) {
     for (Footage& f : scenes_in(folder)) scenes.push_back(std::move(f));
   }
-  const auto contestants = near_contestants();
+  auto contestants = near_contestants();
+  if (!options.only.empty()) {
+    std::erase_if(contestants, [&](const Contestant& c) {
+      return std::find(options.only.begin(), options.only.end(), c.key) == options.only.end();
+    });
+  }
   std::string text = "Measured on " + where_and_when() + ".\n\n";
   text += section("Near view, turning", contestants, {turning(false)}, options.every_frame);
   text += section("Near view, turning among people", contestants, {turning(true)}, options.every_frame);
@@ -86,6 +93,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--write", options.write_to, "also put the tables between the marks of this Markdown file")
       ->check(CLI::ExistingFile);
+  app.add_option("--only", options.only, "only these methods")
+      ->check(CLI::IsMember({"chain", "model", "lines", "acquire", "track"}));
   app.add_flag("--smoke", options.smoke, "only see that every method still runs");
   app.add_flag("--every-frame", options.every_frame, "every method's error on every frame, to stderr");
   CLI11_PARSE(app, argc, argv);

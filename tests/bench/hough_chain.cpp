@@ -28,8 +28,11 @@ constexpr double max_yaw_rad = 15.0 * degree;
 constexpr double slack_m = 0.4;  // the mount's tilt moves far ice by decimetres
 
 constexpr int hough_votes = 150;
-constexpr std::size_t most_candidates = 6;  // of each class
-constexpr int colour_step_px = 6;           // k-means looks at every sixth pixel both ways
+constexpr std::size_t most_candidates = 3;  // of each class: more only offer EPnP wrong ones that fit as well
+constexpr int opening_px = 7;               // thin lines near by are 5 px wide
+constexpr std::size_t least_points = 300;   // of a ring's contour
+constexpr int ransac_trials = 150;
+constexpr int colour_step_px = 6;  // k-means looks at every sixth pixel both ways
 
 struct Candidate {
   Eigen::Vector3d line;  // homogeneous, pixels
@@ -135,7 +138,7 @@ class HoughChain final : public Method {
     const cv::Mat below_horizon = picture.rowRange(first_row, picture.rows);
     cv::cvtColor(below_horizon, grey_, cv::COLOR_BGR2GRAY);
     cv::GaussianBlur(grey_, grey_, {3, 3}, 0.0);
-    cv::Canny(grey_, edges_, 40.0, 120.0);
+    cv::Canny(grey_, edges_, 50.0, 150.0);
     std::vector<cv::Vec2f> lines;
     cv::HoughLines(edges_, lines, 1.0, 0.25 * degree, hough_votes);  // by falling votes
 
@@ -194,14 +197,20 @@ class HoughChain final : public Method {
     cv::erode(framed, border, cv::getStructuringElement(cv::MORPH_RECT, {9, 9}));
     border = border(cv::Rect(1, 1, box.width, box.height));
 
-    Ellipse best{Eigen::Matrix3d::Zero(), 0.3};
+    Ellipse best{Eigen::Matrix3d::Zero(), 0.2};
     for (const cv::Mat& paint : paints) {
       std::vector<std::vector<cv::Point>> contours;
       cv::findContours(paint, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
       for (const auto& contour : contours) {
+        if (contour.size() < least_points) continue;
+        // A ring that the picture cuts open has its inner edge in its contour too, which is not on the hull.
+        std::vector<cv::Point> hull;
+        cv::convexHull(contour, hull);
         std::vector<cv::Point> points;
         for (const cv::Point& p : contour) {
-          if (border.at<std::uint8_t>(p) != 0) points.push_back(p + box.tl());
+          if (border.at<std::uint8_t>(p) != 0 && cv::pointPolygonTest(hull, p, true) < 2.0) {
+            points.push_back(p + box.tl());
+          }
         }
         const auto ellipse = fitted(points);
         if (ellipse && ellipse->support > best.support && has_ring_size(ellipse->conic)) best = *ellipse;
@@ -253,23 +262,26 @@ class HoughChain final : public Method {
         if (d[2] < d[0] && d[2] < d[1]) masks[1].ptr<std::uint8_t>(y)[x] = 255;
       }
     }
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {5, 5});
+    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {opening_px, opening_px});
     for (cv::Mat& mask : masks) cv::morphologyEx(mask, mask, cv::MORPH_OPEN, square);
     return masks;
   }
 
-  // Fitted again and again to the points that are near the last ellipse: stones and lines stick out of a ring.
-  static std::optional<Ellipse> fitted(std::vector<cv::Point> points) {
-    if (points.size() < 400) return std::nullopt;
+  // Stones, people and lines stick out of a ring: the ellipse through five points that most of the contour lies on
+  // (RANSAC), among those of a ring's size; then fitted to all that is near it.
+  std::optional<Ellipse> fitted(std::vector<cv::Point> points) const {
+    if (points.size() < least_points) return std::nullopt;
     const std::vector<cv::Point> all = points;
-    for (const double reach_px : {30.0, 12.0, 5.0, 3.0, 2.0}) {
-      const Eigen::Matrix3d conic = conic_of(cv::fitEllipseDirect(points), 0.0);
-      if (!conic.allFinite()) return std::nullopt;
+    Eigen::Matrix3d conic = consensus(all);
+    if (conic.isZero()) return std::nullopt;
+    for (const double reach_px : {4.0, 3.0, 2.0}) {
       points.clear();
       for (const cv::Point& p : all) {
         if (distance(conic, p) < reach_px) points.push_back(p);
       }
-      if (points.size() < 400) return std::nullopt;
+      if (points.size() < least_points) return std::nullopt;
+      conic = conic_of(cv::fitEllipseDirect(points), 0.0);
+      if (!conic.allFinite()) return std::nullopt;
     }
     const cv::RotatedRect box = cv::fitEllipseDirect(points);
     const double a = 0.5 * static_cast<double>(box.size.width);
@@ -278,6 +290,26 @@ class HoughChain final : public Method {
     const double around = std::numbers::pi * (a + b) * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h)));
     // A contour runs through the centres of the paint's last pixels: the paint ends half a pixel farther out.
     return Ellipse{conic_of(box, 0.5), static_cast<double>(points.size()) / around};
+  }
+
+  Eigen::Matrix3d consensus(const std::vector<cv::Point>& points) const {
+    cv::RNG random(1);  // the same picture gives the same answer
+    Eigen::Matrix3d best = Eigen::Matrix3d::Zero();
+    int most = 0;
+    for (int trial = 0; trial < ransac_trials; ++trial) {
+      std::vector<cv::Point> five;
+      for (int i = 0; i < 5; ++i) {
+        five.push_back(points[static_cast<std::size_t>(random.uniform(0, static_cast<int>(points.size())))]);
+      }
+      const Eigen::Matrix3d conic = conic_of(cv::fitEllipseDirect(five), 0.0);
+      if (!conic.allFinite()) continue;
+      int near = 0;
+      for (std::size_t i = 0; i < points.size(); i += 10) near += distance(conic, points[i]) < 3.0 ? 1 : 0;
+      if (near <= most || !has_ring_size(conic)) continue;
+      most = near;
+      best = conic;
+    }
+    return best;
   }
 
   // The outer ring is 3.66 m wide on the ice; the roughly known tilt tells that to some percent.
