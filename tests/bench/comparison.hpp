@@ -44,6 +44,10 @@ inline constexpr double wild_rad = 0.035;
 /// each loss.
 std::vector<Column> compare(const std::vector<Contestant>& contestants, const std::vector<Footage>& footage);
 
+/// The methods give the same answer every time, and what other programs do to the machine only adds: of two comparisons
+/// of the same frames, keeps for each frame the shorter time.
+void keep_shorter_times(std::vector<Column>& kept, const std::vector<Column>& again);
+
 Summary summary_of(const Column& column);
 
 }  // namespace hogline::bench

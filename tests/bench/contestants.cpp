@@ -67,6 +67,7 @@ std::vector<Contestant> near_contestants() {
       {"lines", "ViSP vpMeLine, vpMeEllipse, vpPose", true,
        [](const Footage& f) { return make_visp_lines(camera_of(f), crossing_lines(f)); }},
       {"acquire", "**hogline acquire**", false, [](const Footage& f) { return make_near_acquire(f.setup); }},
+      {"track", "**hogline track**", false, [](const Footage& f) { return make_near_track(f.setup); }},
   };
 }
 

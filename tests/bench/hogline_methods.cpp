@@ -1,5 +1,6 @@
 #include "tests/bench/hogline_methods.hpp"
 
+#include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
 
 namespace hogline::bench {
@@ -23,10 +24,22 @@ class NearAcquire final : public Method {
   vision::NearView view_;
 };
 
+class NearTrack final : public Method {
+ public:
+  explicit NearTrack(const vision::CameraSetup& setup) : sequence_(setup) {}
+  void start(const Frame&, const vision::Pose&) override {}
+  Look look(const Frame& frame) override { return look_of(sequence_.step(frame.image, frame.stamp)); }
+
+ private:
+  vision::NearSequence sequence_;
+};
+
 }  // namespace
 
 std::unique_ptr<Method> make_near_acquire(const vision::CameraSetup& setup) {
   return std::make_unique<NearAcquire>(setup);
 }
+
+std::unique_ptr<Method> make_near_track(const vision::CameraSetup& setup) { return std::make_unique<NearTrack>(setup); }
 
 }  // namespace hogline::bench

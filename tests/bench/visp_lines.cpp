@@ -20,15 +20,17 @@ namespace hogline::bench {
 namespace {
 
 constexpr int margin_px = 20;  // ViSP's sites need their range and mask inside the picture
+constexpr double slipped_px = 4.0;
 constexpr double pi = 3.14159265358979323846;
 
-// As in ViSP's tutorial on moving edges, with a range that bears the turn (4.5 to 9 px a frame at 20 deg/s and 60 Hz)
-// and a threshold for thin lines.
+// As in ViSP's tutorial on moving edges, with a threshold for thin lines. Tried as well: range 12, threshold 20000,
+// half a pixel taken off for vpMeSite's truncation (which helps visp_model), vpPose's robust virtual visual servoing.
+// This is the best of them.
 vpMe moving_edges(double step_px) {
   vpMe me;
   me.setMaskSize(5);
   me.setMaskNumber(180);
-  me.setRange(12);
+  me.setRange(8);
   me.setThreshold(8000);
   me.setMu1(0.5);
   me.setMu2(0.5);
@@ -104,6 +106,15 @@ class TrackedLine {
   }
 
   bool tracked() const { return tracked_line().has_value(); }
+
+  // From where the pose has the line's ends in the picture; 0 where it is not tracked or not in view.
+  double distance(const FlatCamera& camera, const vision::Pose& cMe) const {
+    const auto line = tracked_line();
+    const auto part = visible_part(camera, cMe, line_);
+    if (!line || !part) return 0.0;
+    const double norm = line->head<2>().norm();
+    return std::max(std::abs(line->dot(part->a.homogeneous())), std::abs(line->dot(part->b.homogeneous()))) / norm;
+  }
 
   // Homogeneous, in (u, v).
   std::optional<Eigen::Vector3d> tracked_line() const {
@@ -239,6 +250,7 @@ class VispLines final : public Method {
     const auto cMe = pose_of(points);
     if (!cMe) return refused("vpPose finds no pose", undistort_s);
     cMe_ = *cMe;
+    restart_what_slipped(picture);
     return {true, {}, vision::planar_body(cMe_.inverse(), mount_), undistort_s};
   }
 
@@ -260,6 +272,15 @@ class VispLines final : public Method {
     if (!ring_) return;
     if (ring_->tracked()) ring_->track(picture);
     if (!ring_->tracked()) ring_->start(picture, flat_, cMe_);
+  }
+
+  // A line that went over to a neighbouring one, or slid along the ring, is started again where the pose has it.
+  void restart_what_slipped(const vpImage<unsigned char>& picture) {
+    for (auto* lines : {&across_, &along_}) {
+      for (const auto& line : *lines) {
+        if (line->distance(flat_, cMe_) > slipped_px) line->start(picture, flat_, cMe_);
+      }
+    }
   }
 
   std::vector<Crossing> crossings() const {
