@@ -22,7 +22,7 @@ struct TrackDiagnosis {
   int places = 0;           ///< looked for
   int moved = 0;            ///< found by the moving edges
   double search_px = 0.0;   ///< the widest search
-  double innovation = 0.0;  ///< root of the normalised square of what the fit found beside the prediction, per number
+  double innovation = 0.0;  ///< of the fit beside the prediction, all six numbers together, in sigmas
 };
 
 /// Usage: begin() on a picture whose pose is known to a few pixels (an acquisition's); then follow() every frame. A
