@@ -89,8 +89,7 @@ std::string ratio_of(const std::vector<Column>& columns, const std::string& us, 
                      two_digits(theirs.median_without_undistortion_s / ours.median_s) + " if undistorting were free)";
   if (ours.lost < ours.frames && theirs.lost < theirs.frames) {
     text += ", yaw " + two_digits(theirs.yaw_rms_rad / ours.yaw_rms_rad) + ", x " +
-            two_digits(theirs.x_rms_m / ours.x_rms_m) + ", y " + two_digits(theirs.y_rms_m / ours.y_rms_m) +
-            " times more accurate";
+            two_digits(theirs.x_rms_m / ours.x_rms_m) + " times more accurate";
   }
   return text + "\n";
 }
