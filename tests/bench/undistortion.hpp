@@ -1,6 +1,6 @@
 // The whole picture without the lens's distortion, as the methods want it that know nothing of lenses. The maps are
-// made once, in fixed point, which is OpenCV's fastest way; the camera matrix stays, so that the picture's middle keeps
-// its resolution (its corners leave the frame: 3 % of the ice in view).
+// made once, in fixed point, which is OpenCV's fastest way; the camera matrix stays, as cv::undistort keeps it, so that
+// the picture's middle keeps its resolution. 17 % of the near camera's picture, in its corners, leaves the frame.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -19,7 +19,8 @@ namespace {
 // The tutorial's moving edges (mask 5x5, 180 masks, range 8, mu 0.5, a site every 4 px), with a threshold for a
 // contrast of 100 grey levels. The range bears the turn: at 20 deg/s and 60 Hz the picture moves by 4.5 px a frame in
 // its middle. Tried as well: ranges 8, 10 and 12, steps 4, 6 and 10, thresholds 4000, 8000 and 20000, thin lines as one
-// line or by both their edges. This is the best of them.
+// line or by both their edges. These were the best on the
+// turning frames.
 vpMe moving_edges() {
   vpMe me;
   me.setMaskSize(5);
@@ -40,8 +41,8 @@ constexpr double truncation_px = 0.5;
 class ModelFile {
  public:
   explicit ModelFile(const std::vector<PaintedLine>& lines) {
-    char name[] = "/tmp/hogline-sheet-XXXXXX.cao";
-    const int file = mkstemps(name, 4);
+    std::string name = "/tmp/hogline-sheet-" + std::string(6, 'X') + ".cao";
+    const int file = mkstemps(name.data(), 4);
     if (file < 0) throw std::runtime_error("no temporary file for ViSP's model");
     close(file);
     path_ = name;
