@@ -10,6 +10,9 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
+// A stop is complete when the axis stands, not when its ramp has ended: motor revolutions per second.
+constexpr double standstill_rps = 0.05;
+
 /// Allows exactly these values of an option code.
 template <typename... Values>
 auto only(Values... allowed) {
@@ -121,7 +124,7 @@ AxisCommand Cia402DriveDevice::step(Stamp now, double dt_s, double axis_speed_ra
     state_ = State::switch_on_disabled;
   }
   obey_controlword(axis_speed_radps);
-  run_state(dt_s);
+  run_state(dt_s, axis_speed_radps);
   publish();
   return act(dt_s, axis_speed_radps);
 }
@@ -192,10 +195,11 @@ void Cia402DriveDevice::obey_controlword(double axis_speed_radps) {
   }
 }
 
-void Cia402DriveDevice::run_state(double dt_s) {
+void Cia402DriveDevice::run_state(double dt_s, double axis_speed_radps) {
   ObjectDictionary& objects = communication_.objects();
   if (!faults.mode_never_confirmed) objects.set(0x6061, 0, objects.get_signed(0x6060));
   switching_on_s_ += dt_s;
+  const bool stands = std::abs(axis_speed_radps) < standstill_rps * two_pi;
 
   switch (state_) {
     case State::operation_enabled:
@@ -203,12 +207,12 @@ void Cia402DriveDevice::run_state(double dt_s) {
     case State::quick_stop_active: {
       run_ramp(dt_s, quick_stop_deceleration());
       const bool stays = objects.get_signed(0x605A) >= 5;
-      if (demand_rps_ == 0.0 && !stays) state_ = State::switch_on_disabled;  // 12
+      if (demand_rps_ == 0.0 && stands && !stays) state_ = State::switch_on_disabled;  // 12
       return;
     }
     case State::fault_reaction_active:
       run_ramp(dt_s, fault_deceleration());
-      if (demand_rps_ == 0.0) state_ = State::fault;  // 14
+      if (demand_rps_ == 0.0 && stands) state_ = State::fault;  // 14
       return;
     default:
       demand_rps_ = 0.0;

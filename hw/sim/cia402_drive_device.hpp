@@ -67,7 +67,7 @@ class Cia402DriveDevice final : private CanopenDevice::Application {
 
   void add_drive_objects();
   void obey_controlword(double axis_speed_radps);
-  void run_state(double dt_s);
+  void run_state(double dt_s, double axis_speed_radps);
   void run_enabled(double dt_s);
   void run_ramp(double dt_s, double deceleration_rps2);
   double quick_stop_deceleration() const;

@@ -32,7 +32,7 @@ TEST(TwoWheelDriveBoot, WritesTheDrivesOwnWatchdogsAndReactions) {
   EXPECT_EQ(objects.get(0x1017), 50u);
   EXPECT_EQ(objects.get(0x1400, 5), 40u);
   EXPECT_EQ(objects.get(0x6007), 3u);
-  EXPECT_EQ(objects.get(0x605A), 6u);
+  EXPECT_EQ(objects.get(0x605A), 2u);
   EXPECT_EQ(objects.get(0x605E), 2u);
   EXPECT_EQ(objects.get(0x60C2, 1), 5u);
   EXPECT_EQ(objects.get_signed(0x60C2, 2), -3);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                   DeviceErrorKind::refused, "6061"},
         BootFault{"SDO falls silent while configuring",
                   [](DriveBench& b) {
-                    b.run_until([&b] { return b.drive.right().boot_stage() == WheelBoot::Stage::configure; }, 1s);
+                    b.run_until([&b] { return b.drive.right().boot_stage() == NodeBoot::Stage::configure; }, 1s);
                     b.right.communication().faults.sdo_silent = true;
                   },
                   DeviceErrorKind::timeout, "no answer"},
