@@ -85,6 +85,8 @@ void AxisPair::watch_for_other_masters(const CanFrame& frame, Stamp now) {
 void AxisPair::watch_bus(Stamp now) {
   if (!bus_.up()) {
     fail(DeviceErrorKind::disconnected, "CAN bus", "bus off, link down or adapter gone", now);
+  } else if (bus_.error_passive()) {
+    fail(DeviceErrorKind::disconnected, "CAN bus", "error passive: check the wiring and the terminations", now);
   } else if (blocked_since_ && now - *blocked_since_ > config_.timing.command_age_limit) {
     fail(DeviceErrorKind::disconnected, "CAN bus", "no room for commands; nobody acknowledges or the bus is full", now);
   }

@@ -71,6 +71,7 @@ class SocketCanBus final : public CanBus {
   CanSendResult send(const CanFrame& frame) override;
   std::optional<StampedCanFrame> receive() override;
   bool up() const override { return state_.phase == SocketCanPhase::running; }
+  bool error_passive() const override { return state_.controller == CanControllerState::passive; }
 
   const SocketCanState& state() const { return state_; }
   /// Why the bus is down and what to check, or nothing. Not latched.
