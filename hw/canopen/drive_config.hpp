@@ -63,7 +63,7 @@ struct DriveTiming {
 };
 
 /// What an adapter sends for the whole bus. Exactly one does each: false where another adapter on the same bus, or the
-/// kernel's timer (socketcan/bcm_sync.hpp), does it.
+/// kernel's timer (socketcan/bcm_cyclic.hpp), does it.
 struct BusDuties {
   bool sync = true;
   bool heartbeat = true;

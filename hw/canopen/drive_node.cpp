@@ -44,7 +44,8 @@ DriveNode::DriveNode(const NodeIdentity& identity, const DriveTiming& timing, st
 
 void DriveNode::boot(Stamp now) {
   started_ = false;
-  start_frame_.reset();
+  nmt_frame_.reset();
+  cut_off_.reset();
   heartbeat_stamp_.reset();
   nmt_state_ = NmtState::unknown;
   last_emergency_.reset();
@@ -66,7 +67,7 @@ void DriveNode::enter(Stage stage, Stamp now) {
   stage_ = stage;
   stage_since_ = now;
   if (stage != Stage::starting) return;
-  start_frame_ = nmt_frame(NmtCommand::start, id_);
+  nmt_frame_ = nmt_frame(NmtCommand::start, id_);
   heartbeat_stamp_.reset();
   status_stamp_.reset();
   position_stamp_.reset();
@@ -82,7 +83,7 @@ void DriveNode::fail(DeviceErrorKind kind, std::string what, Stamp now) {
 void DriveNode::halt() {
   stage_ = Stage::failed;
   boot_.cancel();
-  start_frame_.reset();
+  nmt_frame_.reset();
 }
 
 void DriveNode::abandon_boot() {
@@ -106,8 +107,10 @@ void DriveNode::step(Stamp now) {
       supervise_drive(now);
       supervise_transition(now);
       break;
-    case Stage::idle:
     case Stage::failed:
+      cut_off_if_unseen(now);
+      break;
+    case Stage::idle:
       break;
   }
   check_stage_deadline(now);
@@ -140,6 +143,17 @@ void DriveNode::check_stage_deadline(Stamp now) {
   } else {
     fail(DeviceErrorKind::refused, std::string{"does not reach switch on disabled: "} + to_string(state_) + cry, now);
   }
+}
+
+// Its RPDOs act on the SYNC. A drive that gets the one and not the other goes on with its last set-point, fed by our
+// quick stops, and its feedback is silent. NMT stop needs no SYNC, and for the drive is a lost connection: it brakes.
+void DriveNode::cut_off_if_unseen(Stamp now) {
+  if (!started_ || feedback_fresh(now)) return;
+  const Stamp failed_since = error_ ? error_->since : stage_since_;
+  const Duration waited = now - cut_off_.value_or(failed_since);
+  if (waited <= (cut_off_ ? timing_.heartbeat_period : timing_.quick_stop_timeout)) return;
+  nmt_frame_ = nmt_frame(NmtCommand::stop, id_);
+  cut_off_ = now;
 }
 
 // ---- frames ----
@@ -208,7 +222,7 @@ std::optional<DriveNode::Travel> DriveNode::on_position(const StampedCanFrame& r
 }
 
 std::optional<CanFrame> DriveNode::take_frame() {
-  if (start_frame_) return std::exchange(start_frame_, std::nullopt);
+  if (nmt_frame_) return std::exchange(nmt_frame_, std::nullopt);
   return boot_.take_frame();
 }
 

@@ -25,7 +25,7 @@ class DriveNode {
     starting,        ///< NMT start: waits for heartbeat and PDOs in operational
     clearing_fault,  ///< fault reset by its edge, until switch on disabled
     operational,     ///< supervised
-    failed,          ///< error() says why; takes stopping goals only
+    failed,          ///< error() says why; takes stopping goals only, and NMT stop if nobody sees it obey
   };
   /// Two readings of the encoder.
   struct Travel {
@@ -87,6 +87,7 @@ class DriveNode {
   void await_start(Stamp now);
   void await_cleared_fault(Stamp now);
   void check_stage_deadline(Stamp now);
+  void cut_off_if_unseen(Stamp now);
 
   void on_heartbeat(NmtState state, Stamp stamp, Stamp now);
   void on_emergency(const Emergency& emergency, Stamp now);
@@ -107,8 +108,9 @@ class DriveNode {
   Stage stage_ = Stage::idle;
   Stamp stage_since_{};
   NodeBoot boot_;
-  bool started_ = false;  ///< NMT start was sent in this boot
-  std::optional<CanFrame> start_frame_;
+  bool started_ = false;               ///< NMT start was sent in this boot
+  std::optional<CanFrame> nmt_frame_;  ///< start, or the last resort
+  std::optional<Stamp> cut_off_;       ///< when the last resort was last sent
 
   std::optional<Stamp> heartbeat_stamp_;
   NmtState nmt_state_ = NmtState::unknown;

@@ -1,0 +1,19 @@
+// Which identifiers a master of these nodes hears and sends: for the filters of a bus adapter.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hogline::hw {
+
+struct BusIdentifiers {
+  std::vector<std::uint32_t> heard;       ///< what the nodes send
+  std::vector<std::uint32_t> own;         ///< what only the master sends: from anybody else it is a second master
+  std::vector<std::uint32_t> set_points;  ///< of `own`: of no use when late, one at a time
+};
+
+/// Precondition: node numbers 1..127.
+BusIdentifiers bus_identifiers(std::span<const std::uint8_t> nodes, std::uint8_t master_node);
+
+}  // namespace hogline::hw
