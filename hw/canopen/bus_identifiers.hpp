@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "hw/canopen/drive_config.hpp"
+
 namespace hogline::hw {
 
 struct BusIdentifiers {
@@ -13,7 +15,8 @@ struct BusIdentifiers {
   std::vector<std::uint32_t> set_points;  ///< of `own`: of no use when late, one at a time
 };
 
-/// Precondition: node numbers 1..127.
-BusIdentifiers bus_identifiers(std::span<const std::uint8_t> nodes, std::uint8_t master_node);
+/// A SYNC or heartbeat that is not among the duties comes from elsewhere and is nobody's offence. Precondition: node
+/// numbers 1..127.
+BusIdentifiers bus_identifiers(std::span<const std::uint8_t> nodes, std::uint8_t master_node, BusDuties duties = {});
 
 }  // namespace hogline::hw

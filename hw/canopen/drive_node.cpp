@@ -11,8 +11,8 @@
 namespace hogline::hw {
 namespace {
 
-// One TPDO1 a period is right. A doubled frame now and then is forgiven: this much of the surplus is forgotten each
-// period, and at this surplus somebody else sends it too.
+// One TPDO1 a period of time is right. A doubled frame now and then is forgiven: this much of the surplus is forgotten
+// each period, and at this surplus somebody else sends it too.
 constexpr double forgotten_surplus = 0.1;
 constexpr double most_surplus = 4.0;
 
@@ -130,6 +130,7 @@ void DriveNode::await_cleared_fault(Stamp now) {
   supervise_communication(now);
   if (stage_ == Stage::clearing_fault && state_ == Cia402State::switch_on_disabled) {
     surplus_ = 0.0;
+    rate_since_ = now;
     enter(Stage::operational, now);
   }
 }
@@ -262,7 +263,9 @@ void DriveNode::supervise_communication(Stamp now) {
 }
 
 void DriveNode::supervise_feedback_rate(Stamp now) {
-  surplus_ = std::max(surplus_ - 1.0 - forgotten_surplus, 0.0);
+  const double periods = seconds(now - rate_since_) / seconds(timing_.control_period);
+  rate_since_ = now;
+  surplus_ = std::max(surplus_ - periods * (1.0 + forgotten_surplus), 0.0);
   if (surplus_ < most_surplus) return;
   fail(DeviceErrorKind::protocol, "sends twice what it should: a second SYNC, or two nodes with this id", now);
 }

@@ -6,8 +6,10 @@
 #include <map>
 #include <memory>
 
+#include "hw/canopen/nmt.hpp"
 #include "hw/canopen/sdo_client.hpp"
 #include "hw/canopen/two_wheel_drive.hpp"
+#include "hw/socketcan/bcm_cyclic.hpp"
 #include "hw/socketcan/candump_log.hpp"
 #include "tests/hil/can_node.hpp"
 #include "tests/hil/drive_program.hpp"
@@ -243,6 +245,23 @@ TEST_F(PythonNode, OurDriveBootsThemDrivesThemAndStopsThem) {
   ASSERT_TRUE(drive_until(bus, drive, {}, phase_is(DrivePhase::stopped))) << why(drive);
   EXPECT_LT(std::abs(drive.state().measured.left_radps), 0.05);
   EXPECT_EQ(bus.state().counters.foreign, 0U);
+}
+
+TEST_F(PythonNode, OurDriveWorksWithTheKernelsSync) {
+  TwoWheelDriveConfig config = patient_drive_config();
+  config.duties.sync = false;
+  BcmCyclic sync("vcan0", sync_frame(), config.timing.control_period, now());
+  ASSERT_TRUE(sync.running());
+  SocketCanBus bus = running_bus(robot_bus_config("vcan0"));
+  TwoWheelDrive drive(bus, config);
+  const auto phase_is = [&](DrivePhase phase) { return [&drive, phase] { return drive.state().phase == phase; }; };
+  ASSERT_TRUE(drive_until(bus, drive, {}, phase_is(DrivePhase::ready))) << why(drive);
+  drive.enable();
+  ASSERT_TRUE(drive_until(bus, drive, {}, phase_is(DrivePhase::enabled))) << why(drive);
+  const auto runs = [&] { return drive.state().measured.left_radps > 9.9; };
+  ASSERT_TRUE(drive_until(bus, drive, {10.0, 10.0}, runs)) << why(drive);
+  drive.quick_stop();
+  ASSERT_TRUE(drive_until(bus, drive, {}, phase_is(DrivePhase::stopped))) << why(drive);
 }
 
 TEST_F(PythonNode, ABusOffWhileDrivingIsAFaultAndNothingMovesWhenTheBusIsBack) {

@@ -25,8 +25,10 @@ class RobotBus {
         stray(bus.make_endpoint()),
         drive(hub.make_endpoint(), drive_config()),
         head(hub.make_endpoint(), silent_head()) {
-    for (const std::uint8_t node : std::array<std::uint8_t, 2>{1, 2}) devices.emplace_back(bus.make_endpoint(), device_config(node));
-    for (const std::uint8_t node : std::array<std::uint8_t, 2>{3, 4}) devices.emplace_back(bus.make_endpoint(), head_device_config(node));
+    for (const std::uint8_t node : std::array<std::uint8_t, 2>{1, 2})
+      devices.emplace_back(bus.make_endpoint(), device_config(node));
+    for (const std::uint8_t node : std::array<std::uint8_t, 2>{3, 4})
+      devices.emplace_back(bus.make_endpoint(), head_device_config(node));
     devices[2].axis().slip_encoder(head_config().pan.zero_counts / 4096.0);
     devices[3].axis().slip_encoder(head_config().tilt.zero_counts / 4096.0);
   }
