@@ -204,9 +204,9 @@ void CanopenDevice::on_frame(const CanFrame& frame, Stamp now) {
 
 void CanopenDevice::on_sdo(const CanFrame& frame) {
   if (nmt_ == Nmt::stopped || faults.sdo_silent) return;
-  const int index = frame.data[1] | (frame.data[2] << 8);
+  const std::uint32_t object = (frame.data[1] | (std::uint32_t{frame.data[2]} << 8)) << 8 | frame.data[3];
   const bool download = (frame.data[0] >> 5) == 1;
-  if (download && faults.sdo_ignores != 0 && index == faults.sdo_ignores) {
+  if (download && faults.sdo_ignores != 0 && object == faults.sdo_ignores) {
     bus_.send({.id = 0x580u + node_, .length = 8, .data = {0x60, frame.data[1], frame.data[2], frame.data[3]}});
     return;
   }

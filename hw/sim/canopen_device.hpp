@@ -33,7 +33,7 @@ struct DeviceFaults {
   bool sdo_silent = false;         ///< SDO requests are not answered
   bool sdo_toggle_stuck = false;   ///< segments are answered without alternating the toggle bit
   bool sdo_wrong_echo = false;     ///< answers name another object
-  std::uint16_t sdo_ignores = 0;   ///< writes to this index are confirmed and forgotten
+  std::uint32_t sdo_ignores = 0;   ///< writes to this object (index << 8 | sub) are confirmed and forgotten
   bool never_boots = false;        ///< from the next reset on it stays silent
 };
 

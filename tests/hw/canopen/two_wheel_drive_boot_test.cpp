@@ -131,17 +131,13 @@ const std::vector<BootFault> boot_faults{
        right_faults(b).sdo_wrong_echo = true;
      },
      20ms, DeviceErrorKind::protocol, "breaks the protocol"},
-    {"SDO confirms the heartbeat watchdog and forgets it", [](DriveBench& b) { right_faults(b).sdo_ignores = 0x1016; },
-     800ms, DeviceErrorKind::refused, "1016:01: confirmed 007F0096 but holds 00000000"},
+    {"SDO confirms the heartbeat watchdog and forgets it",
+     [](DriveBench& b) { right_faults(b).sdo_ignores = 0x101601; }, 800ms, DeviceErrorKind::refused,
+     "1016:01: confirmed 007F0096 but holds 00000000"},
     {"SDO confirms the reaction to a lost connection and forgets it",
-     [](DriveBench& b) { right_faults(b).sdo_ignores = 0x6007; }, 800ms, DeviceErrorKind::refused, "6007:00"},
-    {"SDO confirms the RPDO watchdog and forgets it",
-     [](DriveBench& b) {
-       ASSERT_TRUE(configures(b));
-       // The whole of 1400 would fail earlier, by its mapping: only the timer is lost.
-       right_objects(b).add(0x1400, 5, 2, sim::ObjectAccess::constant, 0);
-     },
-     800ms, DeviceErrorKind::refused, "1400:05"},
+     [](DriveBench& b) { right_faults(b).sdo_ignores = 0x600700; }, 800ms, DeviceErrorKind::refused, "6007:00"},
+    {"SDO confirms the RPDO watchdog and forgets it", [](DriveBench& b) { right_faults(b).sdo_ignores = 0x140005; },
+     800ms, DeviceErrorKind::refused, "1400:05: confirmed 00000028 but holds 00000000"},
     {"mode never confirms", [](DriveBench& b) { b.right.faults.mode_never_confirmed = true; }, 5800ms,
      DeviceErrorKind::refused, "6061"},
     {"no heartbeat after the start", [](DriveBench& b) { right_faults(b).heartbeat_stopped = true; }, 5800ms,
