@@ -1,4 +1,4 @@
-// Brings one wheel's node from power-up to configured in pre-operational. Frames and time in, frames out, no IO.
+// Brings one drive's node from power-up to configured in pre-operational. Frames and time in, frames out, no IO.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,20 @@
 #include <vector>
 
 #include "hw/canopen/drive_config.hpp"
+#include "hw/canopen/drive_setup.hpp"
 #include "hw/canopen/sdo_client.hpp"
 #include "hw/device_status.hpp"
 
 namespace hogline::hw {
 
-class WheelBoot {
+class NodeBoot {
  public:
   enum class Stage {
     idle,
     identify,             ///< reads 1000, 1018 and the device's name; asks again until the deadline
     reset_communication,  ///< waits for the boot-up message
-    configure,            ///< wheel_drive_setup()
+    configure,            ///< writes the setup
+    verify,               ///< reads all of it back: a drive that confirms a watchdog may still not have it
     confirm_mode,         ///< reads 6061 until it shows the mode
     done,
   };
@@ -28,8 +30,8 @@ class WheelBoot {
     std::string what;
   };
 
-  /// Precondition: a wheel that config_error() accepts.
-  WheelBoot(const WheelConfig& wheel, const DriveTiming& timing, std::uint8_t master_node);
+  /// `setup` ends with 6061 showing `mode`. Precondition: all of a configuration that config_error() accepts.
+  NodeBoot(NodeIdentity identity, const DriveTiming& timing, std::vector<SdoWrite> setup, std::int8_t mode);
 
   void start(Stamp now);
   /// Forgets everything that was still to be sent.
@@ -57,12 +59,16 @@ class WheelBoot {
   bool accept_identity(ObjectAddress address, const SdoResult& result);
   std::uint32_t expected_identity(ObjectAddress address) const;
   void configure(Stamp now);
+  void verify(Stamp now);
+  bool accept_held(const SdoExpectation& expected, const SdoResult& result);
   void confirm_mode(Stamp now);
   void check_deadline(Stamp now);
 
-  WheelConfig wheel_;
+  NodeIdentity identity_;
   Duration stage_timeout_;
   std::vector<SdoWrite> setup_;
+  std::vector<SdoExpectation> expected_;
+  std::int8_t mode_;
 
   Stage stage_ = Stage::idle;
   Stamp stage_since_{};

@@ -1,12 +1,10 @@
-#include "hw/canopen/wheel_boot.hpp"
+#include "hw/canopen/node_boot.hpp"
 
 #include <array>
 #include <cstdio>
 #include <utility>
 
 #include "hw/canopen/nmt.hpp"
-#include "hw/canopen/wheel_drive_setup.hpp"
-#include "hw/canopen/wheel_pdos.hpp"
 
 namespace hogline::hw {
 namespace {
@@ -31,14 +29,14 @@ bool lacks_object(const SdoResult& result) {
          (result.abort_code == sdo_abort_no_object || result.abort_code == sdo_abort_no_sub_index);
 }
 
-const char* too_long(WheelBoot::Stage stage) {
+const char* too_long(NodeBoot::Stage stage) {
   switch (stage) {
-    case WheelBoot::Stage::identify:
+    case NodeBoot::Stage::identify:
       return "never answered; check its power, node id and the bit rate";
-    case WheelBoot::Stage::reset_communication:
+    case NodeBoot::Stage::reset_communication:
       return "sent no boot-up message after reset communication";
-    case WheelBoot::Stage::confirm_mode:
-      return "6061 never confirms cyclic synchronous velocity";
+    case NodeBoot::Stage::confirm_mode:
+      return "6061 never confirms the mode";
     default:
       return "configuration takes too long";
   }
@@ -46,39 +44,42 @@ const char* too_long(WheelBoot::Stage stage) {
 
 }  // namespace
 
-WheelBoot::WheelBoot(const WheelConfig& wheel, const DriveTiming& timing, std::uint8_t master_node)
-    : wheel_(wheel),
+NodeBoot::NodeBoot(NodeIdentity identity, const DriveTiming& timing, std::vector<SdoWrite> setup, std::int8_t mode)
+    : identity_(std::move(identity)),
       stage_timeout_(timing.boot_timeout),
-      setup_(wheel_drive_setup(wheel, timing, master_node)),
-      sdo_(wheel.node, timing.sdo_timeout) {}
+      setup_(std::move(setup)),
+      expected_(expected_after(setup_)),
+      mode_(mode),
+      sdo_(identity_.node, timing.sdo_timeout) {}
 
-void WheelBoot::start(Stamp now) {
+void NodeBoot::start(Stamp now) {
   cancel();
   failure_.reset();
   enter(Stage::identify, now);
 }
 
-void WheelBoot::cancel() {
+void NodeBoot::cancel() {
   sdo_.cancel();
   outgoing_.clear();
   stage_ = Stage::idle;
 }
 
-void WheelBoot::enter(Stage stage, Stamp now) {
+void NodeBoot::enter(Stage stage, Stamp now) {
   stage_ = stage;
   stage_since_ = now;
   item_ = 0;
   // A node that was left stopped answers no SDO.
-  if (stage == Stage::identify) outgoing_.push_back(nmt_frame(NmtCommand::enter_pre_operational, wheel_.node));
-  if (stage == Stage::reset_communication) outgoing_.push_back(nmt_frame(NmtCommand::reset_communication, wheel_.node));
+  if (stage == Stage::identify) outgoing_.push_back(nmt_frame(NmtCommand::enter_pre_operational, identity_.node));
+  if (stage == Stage::reset_communication)
+    outgoing_.push_back(nmt_frame(NmtCommand::reset_communication, identity_.node));
 }
 
-void WheelBoot::fail(DeviceErrorKind kind, std::string what) {
+void NodeBoot::fail(DeviceErrorKind kind, std::string what) {
   cancel();
   failure_ = Failure{kind, std::move(what)};
 }
 
-void WheelBoot::fail(const SdoResult& result) {
+void NodeBoot::fail(const SdoResult& result) {
   switch (result.outcome) {
     case SdoResult::Outcome::aborted:
       return fail(DeviceErrorKind::refused, result.describe());
@@ -89,14 +90,14 @@ void WheelBoot::fail(const SdoResult& result) {
   }
 }
 
-bool WheelBoot::on_boot_up(Stamp now) {
+bool NodeBoot::on_boot_up(Stamp now) {
   if (stage_ == Stage::identify) return true;  // it was switched on later than we were
   if (stage_ != Stage::reset_communication) return false;
   enter(Stage::configure, now);
   return true;
 }
 
-void WheelBoot::step(Stamp now) {
+void NodeBoot::step(Stamp now) {
   sdo_.step(now);
   switch (stage_) {
     case Stage::identify:
@@ -104,6 +105,9 @@ void WheelBoot::step(Stamp now) {
       break;
     case Stage::configure:
       configure(now);
+      break;
+    case Stage::verify:
+      verify(now);
       break;
     case Stage::confirm_mode:
       confirm_mode(now);
@@ -114,13 +118,13 @@ void WheelBoot::step(Stamp now) {
   check_deadline(now);
 }
 
-void WheelBoot::check_deadline(Stamp now) {
+void NodeBoot::check_deadline(Stamp now) {
   if (stage_ == Stage::idle || stage_ == Stage::done || now - stage_since_ <= stage_timeout_) return;
   const bool refusal = stage_ == Stage::confirm_mode;
   fail(refusal ? DeviceErrorKind::refused : DeviceErrorKind::timeout, too_long(stage_));
 }
 
-void WheelBoot::identify(Stamp now) {
+void NodeBoot::identify(Stamp now) {
   if (const std::optional<SdoResult> result = sdo_.take_result()) {
     // A node that has not booted yet is asked again until the stage's deadline.
     if (result->outcome != SdoResult::Outcome::timeout) {
@@ -133,7 +137,7 @@ void WheelBoot::identify(Stamp now) {
   sdo_.start_upload(identity_reads[item_], now);
 }
 
-bool WheelBoot::accept_identity(ObjectAddress address, const SdoResult& result) {
+bool NodeBoot::accept_identity(ObjectAddress address, const SdoResult& result) {
   const bool read = result.outcome == SdoResult::Outcome::ok;
   if (address == device_name_object && (read || lacks_object(result))) {
     device_name_.assign(result.data.begin(), result.data.end());
@@ -153,31 +157,54 @@ bool WheelBoot::accept_identity(ObjectAddress address, const SdoResult& result) 
   return false;
 }
 
-std::uint32_t WheelBoot::expected_identity(ObjectAddress address) const {
+std::uint32_t NodeBoot::expected_identity(ObjectAddress address) const {
   if (address == device_type) return drive_profile;
-  return address == vendor_id ? wheel_.vendor_id : wheel_.product_code;
+  return address == vendor_id ? identity_.vendor_id : identity_.product_code;
 }
 
-void WheelBoot::configure(Stamp now) {
+void NodeBoot::configure(Stamp now) {
   if (const std::optional<SdoResult> result = sdo_.take_result()) {
     const bool not_needed = setup_[item_].optional && lacks_object(*result);
     if (result->outcome != SdoResult::Outcome::ok && !not_needed) return fail(*result);
     ++item_;
   }
   if (sdo_.busy()) return;
-  if (item_ == setup_.size()) return enter(Stage::confirm_mode, now);
+  if (item_ == setup_.size()) return enter(Stage::verify, now);
   sdo_.start_download(setup_[item_], now);
 }
 
-void WheelBoot::confirm_mode(Stamp now) {
+void NodeBoot::verify(Stamp now) {
+  if (const std::optional<SdoResult> result = sdo_.take_result()) {
+    if (!accept_held(expected_[item_], *result)) return;
+    ++item_;
+  }
+  if (sdo_.busy()) return;
+  if (item_ == expected_.size()) return enter(Stage::confirm_mode, now);
+  sdo_.start_upload(expected_[item_].address, now);
+}
+
+bool NodeBoot::accept_held(const SdoExpectation& expected, const SdoResult& result) {
+  if (expected.optional && lacks_object(result)) return true;
+  if (result.outcome != SdoResult::Outcome::ok) {
+    fail(result);
+    return false;
+  }
+  const std::optional<std::uint32_t> value = result.value();
+  if (value && (*value & expected.mask) == expected.value) return true;
+  fail(DeviceErrorKind::refused, "SDO " + to_string(expected.address) + ": confirmed " + hex(expected.value) +
+                                     " but holds " + (value ? hex(*value & expected.mask) : "something malformed"));
+  return false;
+}
+
+void NodeBoot::confirm_mode(Stamp now) {
   if (const std::optional<SdoResult> result = sdo_.take_result()) {
     if (result->outcome != SdoResult::Outcome::ok) return fail(*result);
-    if (result->value() == static_cast<std::uint32_t>(cyclic_sync_velocity_mode)) return enter(Stage::done, now);
+    if (result->value() == static_cast<std::uint8_t>(mode_)) return enter(Stage::done, now);
   }
   if (!sdo_.busy()) sdo_.start_upload(mode_display, now);
 }
 
-std::optional<CanFrame> WheelBoot::take_frame() {
+std::optional<CanFrame> NodeBoot::take_frame() {
   if (outgoing_.empty()) return sdo_.take_frame();
   const CanFrame frame = outgoing_.front();
   outgoing_.pop_front();
