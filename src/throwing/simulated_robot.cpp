@@ -43,8 +43,13 @@ hw::sim::RinkConfig rink_config(const config::ThrowerRig& rig, const hw::sim::Sc
           .bus = {.bit_rate_hz = bit_rate_hz}};
 }
 
-hw::ModbusSessionConfig at_port(hw::ModbusSessionConfig config, int port) {
-  config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = port};
+// The line as the rig file describes it, but to the rink's own port or terminal.
+hw::ModbusSessionConfig to_rink(hw::ModbusSessionConfig config, hw::sim::ModbusDevices& devices) {
+  if (auto* rtu = std::get_if<hw::ModbusRtu>(&config.line.line)) {
+    rtu->device = devices.serve_rtu();
+  } else {
+    config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = devices.port()};
+  }
   return config;
 }
 
@@ -58,7 +63,7 @@ SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario 
     : scenario_(completed(std::move(scenario), rig)),
       rink_(rink_config(rig, scenario_), simulation_start),
       drive_(rink_.can(), rig.drive),
-      session_(at_port(rig.modbus, rink_.modbus_port())),
+      session_(to_rink(rig.modbus, rink_.modbus())),
       gripper_(session_, rig.gripper),
       arm_(session_, rig.arm),
       gyro_([this] { return rink_.read_gyro(); }, rig.gyro),
