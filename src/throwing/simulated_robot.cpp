@@ -12,6 +12,8 @@ hw::sim::Scenario completed(hw::sim::Scenario scenario, const config::ThrowerRig
   scenario.robot.wheel_radius_m = rig.thrower.base.wheel_radius_m;
   scenario.robot.track_m = rig.thrower.base.track_m;
   scenario.stone.stone_x_m = rig.thrower.release.stone_x_m;
+  scenario.gyro.binary = rig.gyro.variant == hw::Dsp3000Variant::binary;
+  if (scenario.gyro.binary) scenario.gyro.line_rate_hz *= 10.0;
   return scenario;
 }
 
@@ -66,7 +68,8 @@ SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario 
       session_(to_rink(rig.modbus, rink_.modbus())),
       gripper_(session_, rig.gripper),
       arm_(session_, rig.arm),
-      gyro_([this] { return rink_.read_gyro(); }, rig.gyro),
+      gyro_line_(rink_),
+      gyro_(gyro_line_, rig.gyro),
       near_camera_(hw::sim::near_camera(rink_, scenario_, camera_rig(*rig.rig.near_camera), render_threads)),
       low_camera_(hw::sim::low_camera(rink_, scenario_, camera_rig(*rig.rig.low_camera), render_threads)) {}
 
