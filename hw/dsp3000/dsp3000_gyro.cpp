@@ -185,6 +185,12 @@ void Dsp3000Gyro::rearm() {
   state_.error.reset();
   rest_bias_.restart();
   waiting_since_.reset();
+  // The mode may be what was wrong: it is asked for and verified anew.
+  verified_ = false;
+  agreeing_ = 0;
+  to_skip_ = readings_of_before;
+  asked_at_ = Stamp{};
+  state_.valid = false;
 }
 
 }  // namespace hogline::hw

@@ -15,8 +15,12 @@ constexpr int most_looks = 120;  // the estimate follows a drift over this many 
 
 std::optional<std::string_view> RestBias::feed(double rate_radps, bool at_rest) {
   if (!at_rest) {
-    samples_ = 0;
+    resting_ = samples_ = 0;
     sum_radps_ = sum_of_squares_ = 0.0;
+    return std::nullopt;
+  }
+  if (resting_ < config_.window_samples / 2) {
+    ++resting_;
     return std::nullopt;
   }
   sum_radps_ += rate_radps;

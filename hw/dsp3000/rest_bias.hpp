@@ -20,7 +20,7 @@ class RestBias {
   explicit RestBias(const RestBiasConfig& config) : config_(config) {}
 
   /// A valid reading. Nothing unless what rest shows is impossible (a constant that says why). Any motion starts the
-  /// window anew: what is begun at rest must end at rest.
+  /// window anew, after half a window of rest: late readings and a rocking body are over then.
   std::optional<std::string_view> feed(double rate_radps, bool at_rest);
   std::optional<GyroBias> bias() const;
   /// Forgets everything.
@@ -32,6 +32,7 @@ class RestBias {
   RestBiasConfig config_;
   double sum_radps_ = 0.0;
   double sum_of_squares_ = 0.0;
+  int resting_ = 0;  ///< readings of rest before the first window
   int samples_ = 0;
   int looks_ = 0;
   double estimate_radps_ = 0.0;
