@@ -42,7 +42,7 @@ void ModbusWorker::post(Change&& change) {
 void ModbusWorker::run() {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    const auto orders = std::exchange(mailbox_, {});
+    const Mailbox orders = std::exchange(mailbox_, Mailbox{});
     lock.unlock();
     apply(orders);
     const Stamp now = clock_.now();
@@ -66,18 +66,18 @@ void ModbusWorker::apply(const Mailbox& orders) {
   if (orders.arm) apply_arm(*orders.arm, now);
 }
 
-void ModbusWorker::apply_jaws(const Posted<JawsOrder>& order, Stamp now) {
+void ModbusWorker::apply_jaws(const PostedOrder<JawsOrder>& order, Stamp now) {
   if (too_old(order.since, now)) return gripper_.drop_jaws_order(came_late, now);
   if (order.what == JawsOrder::grip) gripper_.grip();
   if (order.what == JawsOrder::release) gripper_.release();
 }
 
-void ModbusWorker::apply_spin(const Posted<double>& order, Stamp now) {
+void ModbusWorker::apply_spin(const PostedOrder<double>& order, Stamp now) {
   if (too_old(order.since, now)) return gripper_.drop_spin_order(came_late, now);
   gripper_.spin(order.what);
 }
 
-void ModbusWorker::apply_arm(const Posted<ArmOrder>& order, Stamp now) {
+void ModbusWorker::apply_arm(const PostedOrder<ArmOrder>& order, Stamp now) {
   if (too_old(order.since, now)) return arm_.drop_order(came_late, now);
   if (order.what == ArmOrder::fold) arm_.fold();
   if (order.what == ArmOrder::unfold) arm_.unfold();

@@ -19,6 +19,13 @@ struct ModbusWorkerConfig {
   Duration order_age_limit{};  ///< an order that waited longer for the line is dropped, and that is an error
 };
 
+/// An order in the mailbox.
+template <typename What>
+struct PostedOrder {
+  What what{};
+  Stamp since{};
+};
+
 /// The ports it gives take orders into a mailbox with one place for each kind of order (the newest of a kind counts, so
 /// nothing piles up) and give copies of the newest states. Their step() does nothing. An order leaves at once, not with
 /// the next tick; while an exchange is under way it waits, and if that takes too long it is dropped: a stone let go
@@ -38,17 +45,12 @@ class ModbusWorker {
   enum class JawsOrder { grip, release };
   enum class ArmOrder { fold, unfold };
 
-  template <typename What>
-  struct Posted {
-    What what{};
-    Stamp since{};
-  };
   struct Mailbox {
     bool rearm_gripper = false;
     bool rearm_arm = false;
-    std::optional<Posted<JawsOrder>> jaws;
-    std::optional<Posted<double>> spin_radps;
-    std::optional<Posted<ArmOrder>> arm;
+    std::optional<PostedOrder<JawsOrder>> jaws;
+    std::optional<PostedOrder<double>> spin_radps;
+    std::optional<PostedOrder<ArmOrder>> arm;
     bool empty() const { return !rearm_gripper && !rearm_arm && !jaws && !spin_radps && !arm; }
   };
 
@@ -83,9 +85,9 @@ class ModbusWorker {
   void post(Change&& change);
   void run();
   void apply(const Mailbox& orders);
-  void apply_jaws(const Posted<JawsOrder>& order, Stamp now);
-  void apply_spin(const Posted<double>& order, Stamp now);
-  void apply_arm(const Posted<ArmOrder>& order, Stamp now);
+  void apply_jaws(const PostedOrder<JawsOrder>& order, Stamp now);
+  void apply_spin(const PostedOrder<double>& order, Stamp now);
+  void apply_arm(const PostedOrder<ArmOrder>& order, Stamp now);
   bool too_old(Stamp since, Stamp now) const { return now - since > order_age_limit_; }
 
   const Clock& clock_;

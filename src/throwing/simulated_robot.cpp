@@ -1,5 +1,6 @@
 #include "src/throwing/simulated_robot.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace hogline {
@@ -45,6 +46,10 @@ hw::sim::RinkConfig rink_config(const config::ThrowerRig& rig, const hw::sim::Sc
           .bus = {.bit_rate_hz = bit_rate_hz}};
 }
 
+// Devices that share a busy machine with this program may be held up longer than any on steel: the stepped clock stands
+// still meanwhile.
+constexpr Duration simulated_response_timeout = std::chrono::seconds{1};
+
 // The line as the rig file describes it, but to the rink's own port or terminal.
 hw::ModbusSessionConfig to_rink(hw::ModbusSessionConfig config, hw::sim::ModbusDevices& devices) {
   if (auto* rtu = std::get_if<hw::ModbusRtu>(&config.line.line)) {
@@ -52,6 +57,7 @@ hw::ModbusSessionConfig to_rink(hw::ModbusSessionConfig config, hw::sim::ModbusD
   } else {
     config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = devices.port()};
   }
+  config.line.response_timeout = std::max(config.line.response_timeout, simulated_response_timeout);
   return config;
 }
 
