@@ -20,7 +20,7 @@ void decode(const std::vector<std::uint16_t>& values) {
     std::copy_n(values.begin(), 3, registers.begin());
     const auto status = hw::robotiq::decode(registers);
     require(!hw::robotiq::describe_fault(status.fault).empty(), "a fault has words");
-    require(status.current_a >= 0.0 && status.current_a <= 2.55, "the current is a byte of 10 mA");
+    require(status.current_a >= 0.0 && status.current_a <= 2.5501, "the current is a byte of 10 mA");
   }
   if (values.size() == 8) {
     std::array<std::uint16_t, 8> registers{};
