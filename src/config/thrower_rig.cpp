@@ -146,6 +146,27 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
   return g;
 }
 
+hw::Dsp3000Config read_gyro(const Section& s) {
+  const Section rest = s.section("rest");
+  return {.variant = s.word("variant") == "text" ? hw::Dsp3000Variant::text : hw::Dsp3000Variant::binary,
+          .sign = s.number("sign"),
+          .latitude_rad = s.radians("latitude_deg"),
+          .latency = s.duration("latency_s"),
+          .silence_limit = s.duration("silence_limit_s"),
+          .mode_deadline = s.duration("mode_deadline_s"),
+          .reopen_delay = s.duration("reopen_delay_s"),
+          .max_rate_radps = s.radians("max_rate_degps"),
+          .max_slew_radps2 = s.radians("max_slew_degps2"),
+          .stuck_limit = s.duration("stuck_limit_s"),
+          .rest_window = rest.duration("window_s"),
+          .max_bias_radps = rest.radians("max_bias_degps"),
+          .max_bias_step_radps = rest.radians("max_bias_step_degps")};
+}
+
+hw::SerialPortConfig read_gyro_port(const Section& s) {
+  return {.device = s.word("device"), .baud = s.word("variant") == "text" ? 38400 : 115200};
+}
+
 void require_sections(const json& root, const Document& document) {
   for (const char* name :
        {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm", "gyro", "looks"}) {
@@ -187,11 +208,8 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.modbus = read_modbus(s.section("modbus"), document);
   rig.gripper = read_gripper(s.section("gripper"));
   rig.arm = read_axis(s.section("arm"));
-  const Section gyro = s.section("gyro");
-  rig.gyro = {.sign = gyro.number("sign"),
-              .latency = gyro.duration("latency_s"),
-              .silence_limit = gyro.duration("silence_limit_s"),
-              .max_rate_radps = gyro.radians("max_rate_degps")};
+  rig.gyro = read_gyro(s.section("gyro"));
+  rig.gyro_port = read_gyro_port(s.section("gyro"));
   rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
   return rig;
 }

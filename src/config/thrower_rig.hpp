@@ -8,6 +8,7 @@
 #include "hw/canopen/drive_config.hpp"
 #include "hw/canopen/head_config.hpp"
 #include "hw/dsp3000/dsp3000_gyro.hpp"
+#include "hw/dsp3000/serial_port.hpp"
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
@@ -26,6 +27,7 @@ struct ThrowerRig {
   hw::ModbusGripperConfig gripper;
   hw::AxisConfig arm;
   hw::Dsp3000Config gyro;
+  hw::SerialPortConfig gyro_port;
   LookTimes looks;
 };
 

@@ -83,8 +83,31 @@ TEST(ThrowerRig, a_head_with_a_wheels_node_or_without_room_is_refused) {
   }
 }
 
-TEST(ThrowerRig, two_lines_to_the_gripper_are_refused) {
+TEST(ThrowerRig, no_line_to_the_gripper_is_refused) {
   EXPECT_THROW(parse_thrower_rig(with("  tcp: {address: 127.0.0.1, port: 502}\n", ""), "rig.yaml"), ConfigError);
+}
+
+const std::string tcp_line = "  tcp: {address: 127.0.0.1, port: 502}\n";
+const std::string rtu_line = "  rtu: {device: /dev/ttyUSB0, baud: 19200, parity: E, data_bits: 8, stop_bits: 1}\n";
+
+TEST(ThrowerRig, a_serial_line_to_the_gripper_is_read) {
+  const ThrowerRig rig = parse_thrower_rig(with(tcp_line, rtu_line), "rig.yaml");
+  const auto& line = std::get<hw::ModbusRtu>(rig.modbus.line.line);
+  EXPECT_EQ(line.device, "/dev/ttyUSB0");
+  EXPECT_EQ(line.baud, 19200);
+  EXPECT_EQ(line.parity, 'E');
+  EXPECT_EQ(line.data_bits, 8);
+  EXPECT_EQ(line.stop_bits, 1);
+}
+
+TEST(ThrowerRig, a_baud_rate_that_no_driver_knows_is_refused) {
+  std::string odd = rtu_line;
+  odd.replace(odd.find("19200"), 5, "19000");
+  EXPECT_THROW(parse_thrower_rig(with(tcp_line, odd), "rig.yaml"), ConfigError);
+}
+
+TEST(ThrowerRig, both_lines_to_the_gripper_are_refused) {
+  EXPECT_THROW(parse_thrower_rig(with(tcp_line, tcp_line + rtu_line), "rig.yaml"), ConfigError);
 }
 
 TEST(ThrowerRig, two_wheels_on_one_node_are_refused) {
