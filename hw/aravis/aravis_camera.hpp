@@ -27,9 +27,8 @@ class AravisCamera final : public Camera {
   AravisCamera& operator=(const AravisCamera&) = delete;
 
   std::optional<Frame> latest(Stamp now) override;
-  /// Latched, also after the frames have come back.
   std::optional<DeviceError> error() const override;
-  void rearm();
+  void rearm() override;
   FeedState state() const;
 
  private:

@@ -82,6 +82,7 @@ std::optional<Frame> CheckedCamera::latest(Stamp now) {
 std::optional<DeviceError> CheckedCamera::error() const { return error_ ? error_ : camera_.error(); }
 
 void CheckedCamera::rearm() {
+  camera_.rearm();
   error_.reset();
   last_asked_.reset();
   newest_stamp_.reset();

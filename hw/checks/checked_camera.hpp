@@ -39,8 +39,8 @@ class CheckedCamera final : public Camera {
   std::optional<Frame> latest(Stamp now) override;
   /// The latched error of a check, or the camera's own.
   std::optional<DeviceError> error() const override;
-  /// Clears the latched error; the next frame has no predecessor.
-  void rearm();
+  /// The camera's own error too. The next frame has no predecessor.
+  void rearm() override;
 
   const CheckedCameraCounters& counters() const { return counters_; }
   /// Of the last picture looked at.

@@ -44,6 +44,7 @@ class RenderedCamera final : public Camera {
 
   std::optional<Frame> latest(Stamp now) override;
   std::optional<DeviceError> error() const override { return std::nullopt; }
+  void rearm() override {}
 
   /// Faults, from the next call of latest() on.
   enum class Fault {

@@ -38,6 +38,7 @@ class ScriptedCamera final : public Camera {
     return newest;
   }
   std::optional<DeviceError> error() const override { return own_error; }
+  void rearm() override { own_error.reset(); }
 
   std::deque<Delivery> script;
   std::optional<DeviceError> own_error;
