@@ -33,13 +33,18 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       ->required()
       ->check(CLI::IsMember({"near", "low"}));
   pose->add_flag("--sequence", options.sequence, "the pictures are consecutive frames of one run (low camera)");
-  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence")->capture_default_str();
+  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence; without it 60, and a video's own");
   pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
-  pose->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  pose->add_option(
+          "IMAGE", options.images,
+          "pictures as the camera gives them, or one recording of them: a folder, a video, a stamps file (.csv)")
+      ->required();
   pose->footer(
       "Examples:\n"
       "  hogline pose --rig rig.yaml --camera near frame.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
+      "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
+      "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return pose;
 }

@@ -114,6 +114,25 @@ class Pose(unittest.TestCase):
         self.assertFalse(line["ok"])
         self.assertTrue(line["reason"])
 
+    def test_a_stamps_file_gives_a_sequence_its_pictures(self):
+        low = os.path.join(SOURCE, "tests/data/low")
+        with tempfile.TemporaryDirectory() as folder:
+            stamps = os.path.join(folder, "run.csv")
+            with open(stamps, "w", encoding="utf-8") as f:
+                f.write("name,id,time_s\n")
+                for k, name in enumerate(("low-13-006.jpg", "low-13-007.jpg")):
+                    f.write(f"{os.path.join(low, name)},{3 * k},{k}\n")
+            result = run("pose", "--rig", RIG, "--camera", "low", "--sequence", stamps)
+            again = run("pose", "--rig", RIG, "--camera", "low", "--sequence", low)
+            with open(stamps, "a", encoding="utf-8") as f:
+                f.write("late.jpg,1,9\n")
+            refused = run("pose", "--rig", RIG, "--camera", "low", "--sequence", stamps)
+        for r in (result, again):
+            self.assertEqual([os.path.basename(json.loads(line)["image"]) for line in r.stdout.splitlines()],
+                             ["low-13-006.jpg", "low-13-007.jpg"], r.stderr)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("run.csv:4", refused.stderr)
+
     def test_help_has_examples(self):
         for command in ("pose", "throw", "demo"):
             result = run(command, "--help")
