@@ -6,6 +6,7 @@
 
 #include "src/config/config_error.hpp"
 #include "src/demo_command.hpp"
+#include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/pose_command.hpp"
 #include "src/throw_command.hpp"
@@ -87,6 +88,22 @@ CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
   return demo;
 }
 
+CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
+  auto* doctor =
+      app.add_subcommand("doctor", "every device of a rig: what is found, what is wrong, what to do; moves nothing");
+  doctor->add_option("--rig", options.rig, "rig file (YAML)")->required();
+  doctor->add_flag("--simulated", options.simulated, "examine the simulated rink in the place of the rig's devices");
+  doctor->add_flag("--json", options.json, "one JSON object instead of a table");
+  doctor->footer(
+      "Examples:\n"
+      "  hogline doctor --rig rig.yaml\n"
+      "  hogline doctor --rig config/rigs/practice.yaml --simulated --json\n"
+      "It listens and reads; nothing is switched on and nothing is ordered. A rig whose cameras are all simulated is\n"
+      "examined on the simulated rink. Takes ten to thirty seconds.\n"
+      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration.");
+  return doctor;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -98,6 +115,8 @@ int run(int argc, char** argv) {
   const auto* pose = add_pose(app, pose_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
+  hogline::DoctorOptions doctor_options;
+  const auto* doctor = add_doctor(app, doctor_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -105,6 +124,7 @@ int run(int argc, char** argv) {
   }
   if (*pose) return hogline::run_pose(pose_options);
   if (*throwing) return hogline::run_throw(throw_options);
+  if (*doctor) return hogline::run_doctor(doctor_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }

@@ -132,6 +132,14 @@ std::optional<SourceFault> AravisSource::start() {
 
 void AravisSource::stop() { session_.reset(); }
 
+std::size_t AravisSource::waiting() const {
+  if (!session_) return 0;
+  int empty = 0;
+  int filled = 0;
+  arv_stream_get_n_buffers(session_->stream, &empty, &filled);
+  return static_cast<std::size_t>(std::max(filled, 0));
+}
+
 bool AravisSource::control_lost() const { return session_ && session_->lost; }
 
 std::optional<CameraBuffer> AravisSource::next(Duration patience) {

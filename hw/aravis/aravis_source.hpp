@@ -16,6 +16,7 @@ class AravisSource final : public FrameSource {
   std::optional<SourceFault> start() override;
   void stop() override;
   std::optional<CameraBuffer> next(Duration patience) override;
+  std::size_t waiting() const override;
   bool control_lost() const override;
   const CameraIdentity& identity() const override { return identity_; }
 

@@ -7,6 +7,7 @@
 namespace hogline::hw {
 namespace {
 
+constexpr int most_at_once = 8;
 constexpr std::uint64_t patient_starts = 3;  // one start in six gives no frame with some cameras: three is a fault
 
 std::string size_text(int width_px, int height_px) {
@@ -42,8 +43,14 @@ std::optional<Frame> CameraFeed::step(Duration patience) {
     open();
     if (state_.phase == FeedPhase::closed) return std::nullopt;
   }
+  // Bounded: pictures may come faster than they are converted.
   std::optional<Frame> newest;
-  for (auto buffer = source_.next(patience); buffer; buffer = source_.next(Duration{})) take(*buffer, newest);
+  auto buffer = source_.next(patience);
+  for (int taken = 1; buffer; ++taken) {
+    const bool last = source_.waiting() == 0 || taken == most_at_once;
+    if (auto frame = take(*buffer, last)) newest = std::move(frame);
+    buffer = last ? std::nullopt : source_.next(Duration{});
+  }
   watch(clocks_().steady);
   return newest;
 }
@@ -75,26 +82,29 @@ void CameraFeed::close() {
   retry_at_ = clocks_().steady;  // at once; a start that fails waits
 }
 
-void CameraFeed::take(const CameraBuffer& buffer, std::optional<Frame>& newest) {
+bool CameraFeed::usable(const CameraBuffer& buffer, bool backward, Stamp now) {
+  FeedCounters& counters = state_.counters;
+  if (!backward && !buffer.complete) {
+    ++counters.incomplete;
+    return false;
+  }
+  if (!backward && buffer.width_px == config_.width_px && buffer.height_px == config_.height_px) return true;
+  ++counters.refused;
+  fail(DeviceErrorKind::implausible,
+       backward ? "frame numbers go back; the camera was started anew"
+                : "a picture is " + size_text(buffer.width_px, buffer.height_px) + ", the rig says " +
+                      size_text(config_.width_px, config_.height_px) + "; set the camera's region or correct the rig",
+       now);
+  return false;
+}
+
+// Numbers, counts and stamps are of every buffer; only the last one is worth a conversion.
+std::optional<Frame> CameraFeed::take(const CameraBuffer& buffer, bool last) {
   const TimePair now = clocks_();
   FeedCounters& counters = state_.counters;
   const FrameNumbers::Step step = numbers_.next(buffer.frame_id);
   counters.lost += step.lost;
-  if (step.backward) {
-    ++counters.refused;
-    return fail(DeviceErrorKind::implausible, "frame numbers go back; the camera was started anew", now.steady);
-  }
-  if (!buffer.complete) {
-    ++counters.incomplete;
-    return;
-  }
-  if (buffer.width_px != config_.width_px || buffer.height_px != config_.height_px) {
-    ++counters.refused;
-    return fail(DeviceErrorKind::implausible,
-                "a picture is " + size_text(buffer.width_px, buffer.height_px) + ", the rig says " +
-                    size_text(config_.width_px, config_.height_px) + "; set the camera's region or correct the rig",
-                now.steady);
-  }
+  if (!usable(buffer, step.backward, now.steady)) return std::nullopt;
   ++counters.frames;
   state_.last_frame = now.steady;
   state_.phase = FeedPhase::streaming;
@@ -105,21 +115,23 @@ void CameraFeed::take(const CameraBuffer& buffer, std::optional<Frame>& newest) 
   if (stamp.camera_jumped) fail(DeviceErrorKind::implausible, "the camera's clock jumped", now.steady);
   if (last_stamp_ && stamp.middle <= *last_stamp_) {
     ++counters.refused;
-    return fail(DeviceErrorKind::implausible, "a frame's time lies before the last one's; check the camera's clock",
-                now.steady);
+    fail(DeviceErrorKind::implausible, "a frame's time lies before the last one's; check the camera's clock",
+         now.steady);
+    return std::nullopt;
   }
   last_stamp_ = stamp.middle;
-
-  auto picture = pfnc::to_picture(buffer.bytes, buffer.width_px, buffer.height_px, buffer.pixel_format);
-  if (!picture) {
-    ++counters.refused;
-    return fail(DeviceErrorKind::implausible,
-                "a picture has pixel format " + pfnc::name(buffer.pixel_format) + " in " +
-                    std::to_string(buffer.bytes.size()) + " bytes; set one of Mono8, BGR8, RGB8, Bayer..8",
-                now.steady);
+  if (!last) {
+    ++counters.overtaken;
+    return std::nullopt;
   }
-  if (newest) ++counters.overtaken;
-  newest = Frame{std::move(*picture), stamp.middle, step.number};
+  auto picture = pfnc::to_picture(buffer.bytes, buffer.width_px, buffer.height_px, buffer.pixel_format);
+  if (picture) return Frame{std::move(*picture), stamp.middle, step.number};
+  ++counters.refused;
+  fail(DeviceErrorKind::implausible,
+       "a picture has pixel format " + pfnc::name(buffer.pixel_format) + " in " + std::to_string(buffer.bytes.size()) +
+           " bytes; set one of Mono8, BGR8, RGB8, Bayer..8",
+       now.steady);
+  return std::nullopt;
 }
 
 void CameraFeed::watch(Stamp now) {

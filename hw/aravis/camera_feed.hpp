@@ -62,7 +62,8 @@ class CameraFeed {
  private:
   void open();
   void close();
-  void take(const CameraBuffer& buffer, std::optional<Frame>& newest);
+  std::optional<Frame> take(const CameraBuffer& buffer, bool last);
+  bool usable(const CameraBuffer& buffer, bool backward, Stamp now);
   void watch(Stamp now);
   void fail(DeviceErrorKind kind, std::string what, Stamp now);
 

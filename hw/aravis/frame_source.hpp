@@ -1,6 +1,7 @@
 // What the adapter needs of the camera library: buffers, one after the other. Aravis stands behind it, or a test.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,6 +46,8 @@ class FrameSource {
   virtual void stop() = 0;
   /// The oldest buffer not yet given; waits for one as long as `patience`. Precondition: started.
   virtual std::optional<CameraBuffer> next(Duration patience) = 0;
+  /// How many buffers next() would give without waiting.
+  virtual std::size_t waiting() const = 0;
   /// The camera has been taken by another program, or does not answer any more.
   virtual bool control_lost() const = 0;
   /// Of the camera last opened.

@@ -23,6 +23,8 @@ class SimulatedRobot {
 
   ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_}; }
   hw::sim::Rink& rink() { return rink_; }
+  const hw::sim::Rink& rink() const { return rink_; }
+  hw::ModbusSession& session() { return session_; }
   hw::sim::RenderedCamera& near_camera() { return near_camera_; }
   hw::sim::RenderedCamera& low_camera() { return low_camera_; }
 

@@ -23,7 +23,7 @@ class EndlessSource final : public FrameSource {
   std::optional<CameraBuffer> next(Duration wait) override {
     while (hangs) std::this_thread::sleep_for(1ms);
     std::this_thread::sleep_for(1ms);
-    if (wait == Duration{} || silent) return std::nullopt;
+    if ((wait == Duration{} && !always_more) || silent) return std::nullopt;
     bytes_.assign(static_cast<std::size_t>(test_width_px * test_height_px), static_cast<std::uint8_t>(++count));
     CameraBuffer buffer;
     buffer.complete = true;
@@ -35,11 +35,13 @@ class EndlessSource final : public FrameSource {
     buffer.wall = std::chrono::system_clock::now().time_since_epoch();
     return buffer;
   }
+  std::size_t waiting() const override { return always_more ? 1 : 0; }
   bool control_lost() const override { return false; }
   const CameraIdentity& identity() const override { return identity_; }
 
   std::atomic<bool> silent{false};
   std::atomic<bool> hangs{false};
+  std::atomic<bool> always_more{false};  ///< frames come faster than they are taken
   std::uint64_t count = 0;
 
  private:
@@ -83,6 +85,13 @@ TEST(AravisCamera, gives_newer_and_newer_frames_and_none_twice) {
     return given >= 50;
   }));
   EXPECT_FALSE(bench.camera.error());
+}
+
+TEST(AravisCamera, gives_frames_also_when_they_come_faster_than_they_are_taken) {
+  Bench bench;
+  bench.source.always_more = true;
+  int given = 0;
+  EXPECT_TRUE(comes_true([&] { return (given += bench.camera.latest(bench.clock.now()) ? 1 : 0) >= 10; }));
 }
 
 TEST(AravisCamera, tells_silence_and_keeps_it_until_rearmed) {

@@ -12,6 +12,16 @@
 #include <stdexcept>
 #include <thread>
 
+#if defined(__SANITIZE_THREAD__)
+// Debian's libaravis and libglib are built without ThreadSanitizer: it sees them write into buffers, but not the locks
+// under which they hand them over.
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  return "called_from_lib:libaravis-0.8.so\ncalled_from_lib:libglib-2.0.so\ncalled_from_lib:libgobject-2.0.so\n"
+         "called_from_lib:libgio-2.0.so\n";
+}
+#endif
+
 namespace hogline::hw {
 namespace {
 

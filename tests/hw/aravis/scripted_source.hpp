@@ -1,6 +1,7 @@
 // A camera library whose buffers a test writes down beforehand, and the two clocks they arrive in.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -68,6 +69,11 @@ class ScriptedSource final : public FrameSource {
     }
     clocks_.advance(until - clocks_.steady);
     return std::nullopt;
+  }
+  std::size_t waiting() const override {
+    return static_cast<std::size_t>(std::count_if(arrivals.begin(), arrivals.end(), [this](const Arrival& a) {
+      return a.at <= clocks_.steady && a.at >= started_at && static_cast<int>(mute_starts) < starts;
+    }));
   }
   bool control_lost() const override { return lost; }
   const CameraIdentity& identity() const override { return identity_; }
