@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hw/checks/checked_camera.hpp"
+#include "hw/files/recorded_camera.hpp"
 
 namespace hogline::doctor {
 namespace {
@@ -24,10 +25,12 @@ struct Look {
   std::uint64_t last_id = 0;
 };
 
-Look look(hw::CheckedCamera& camera, Site& site) {
+// A recording may have fewer pictures: its end is no fault.
+Look look(hw::CheckedCamera& camera, const hw::files::RecordedCamera* recording, Site& site) {
   Look seen;
   const Stamp end = site.now() + longest;
-  while (site.now() < end && seen.ages_s.size() < enough && !camera.error()) {
+  while (site.now() < end && seen.ages_s.size() < enough && !camera.error() &&
+         !(recording && !recording->next_stamp())) {
     if (const auto frame = camera.latest(site.now())) {
       if (seen.ages_s.empty()) {
         seen.first = frame->stamp;
@@ -84,7 +87,8 @@ Finding examine_camera(const std::string& name, const config::CameraSource& sour
                                       .max_age = source.max_age,
                                       .silence_limit = source.silence_limit,
                                       .first_frame_limit = longest});
-  const Look seen = look(checked, site);
+  const auto* recording = dynamic_cast<const hw::files::RecordedCamera*>(camera);
+  const Look seen = look(checked, recording, site);
   const auto& verdict = checked.verdict();
   finding.found = verdict ? "picture with " + verdict->describe() : "no picture";
   if (verdict && verdict->fault) finding.found = verdict->describe();
@@ -97,7 +101,7 @@ Finding examine_camera(const std::string& name, const config::CameraSource& sour
     finding.note("sees darkness: the head is folded", "unfold the arm and ask again");
   } else if (error) {
     finding.wrong(fmt::format("{}: {}", to_string(error->kind), error->what), advice_for(error->kind));
-  } else if (seen.ages_s.size() < enough) {
+  } else if (seen.ages_s.size() < (recording != nullptr ? 1 : enough)) {
     finding.wrong(fmt::format("only {} pictures in {:.0f} s", seen.ages_s.size(), seconds(longest)),
                   advice_for(hw::DeviceErrorKind::timeout));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -63,7 +64,10 @@ void SteelSite::describe_can(Finding& finding) const {
   finding.values.emplace_back("kernel_drops", static_cast<std::int64_t>(state.counters.kernel_drops));
   finding.values.emplace_back("error_frames", static_cast<std::int64_t>(state.counters.error_frames));
   finding.values.emplace_back("unconfirmed", static_cast<std::int64_t>(state.counters.unconfirmed));
-  if (const auto error = can_.error()) {
+  if (hw::CanSocket::open(rig_.rig.can_interface, {}).error == EAFNOSUPPORT) {
+    finding.wrong("this machine's kernel has no CAN",
+                  "boot a kernel with CONFIG_CAN (Debian's has it), or use --simulated");
+  } else if (const auto error = can_.error()) {
     finding.wrong(error->what, "see doc/socketcan.md; the drives can not be asked until the bus is up");
   } else if (state.controller != hw::CanControllerState::active) {
     finding.wrong(fmt::format("the controller is in {}", hw::to_string(state.controller)),
