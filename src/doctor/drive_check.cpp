@@ -249,12 +249,15 @@ std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config, Site&
   asking.listen(listening);
 
   std::vector<Finding> findings(1);
-  if (site.can().up()) {
-    for (const hw::WheelConfig* wheel : {&config.left, &config.right}) {
-      Finding& finding = findings.emplace_back();
-      finding.device = wheel->name;
-      finding.line = fmt::format("{}, node {}", site.can_line(), wheel->node);
+  for (const hw::WheelConfig* wheel : {&config.left, &config.right}) {
+    Finding& finding = findings.emplace_back();
+    finding.device = wheel->name;
+    finding.line = fmt::format("{}, node {}", site.can_line(), wheel->node);
+    if (site.can().up()) {
       WheelExamination(*wheel, config, asking, ear, finding).run(site.now());
+    } else {
+      finding.found = "not asked";
+      finding.note("can not be asked while the bus is down", "bring the bus up and ask again");
     }
   }
 

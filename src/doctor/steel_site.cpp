@@ -59,8 +59,8 @@ std::string SteelSite::can_line() const { return "CAN " + rig_.rig.can_interface
 
 void SteelSite::describe_can(Finding& finding) const {
   const hw::SocketCanState& state = can_.state();
-  finding.found =
-      fmt::format("{}, controller {}, {}", hw::to_string(state.phase), hw::to_string(state.controller), finding.found);
+  finding.found = can_.up() ? fmt::format("{}, controller {}", finding.found, hw::to_string(state.controller))
+                            : std::string(hw::to_string(state.phase));
   finding.values.emplace_back("kernel_drops", static_cast<std::int64_t>(state.counters.kernel_drops));
   finding.values.emplace_back("error_frames", static_cast<std::int64_t>(state.counters.error_frames));
   finding.values.emplace_back("unconfirmed", static_cast<std::int64_t>(state.counters.unconfirmed));
