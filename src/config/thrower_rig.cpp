@@ -189,6 +189,16 @@ void check_release(const servo::ReleaseConfig& r, const Document& document) {
   }
 }
 
+// While a look goes on nobody asks the camera: a limit shorter than that would take it for silence.
+void check_looks(const ThrowerRig& rig, const Document& document) {
+  for (const auto& [name, look] : {std::pair("near", rig.looks.near), std::pair("low", rig.looks.low)}) {
+    const std::string key = fmt::format("cameras.{}.source.silence_limit_s", name);
+    if (rig.rig.source(name).silence_limit > look) continue;
+    throw ConfigError(document.file, document.line_of(key), key, "",
+                      fmt::format("must be longer than looks.{}_s, {} s", name, seconds(look)));
+  }
+}
+
 }  // namespace
 
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
@@ -211,6 +221,7 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.gyro = read_gyro(s.section("gyro"));
   rig.gyro_port = read_gyro_port(s.section("gyro"));
   rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
+  check_looks(rig, document);
   return rig;
 }
 

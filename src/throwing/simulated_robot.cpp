@@ -65,6 +65,11 @@ hw::sim::CameraRig camera_rig(const vision::CameraSetup& setup) {
   return {.intrinsics = setup.intrinsics, .mount = setup.mount, .gamma = setup.gamma};
 }
 
+hw::CameraWatch watch_of(const config::Rig& rig, const std::string& camera) {
+  const config::CameraSource source = rig.source(camera);
+  return {.name = camera + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
+}
+
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario)
@@ -77,6 +82,8 @@ SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario 
       gyro_line_(rink_),
       gyro_(gyro_line_, rig.gyro),
       near_camera_(hw::sim::near_camera(rink_, scenario_, camera_rig(*rig.rig.near_camera), render_threads)),
-      low_camera_(hw::sim::low_camera(rink_, scenario_, camera_rig(*rig.rig.low_camera), render_threads)) {}
+      low_camera_(hw::sim::low_camera(rink_, scenario_, camera_rig(*rig.rig.low_camera), render_threads)),
+      near_checked_(near_camera_, watch_of(rig.rig, "near")),
+      low_checked_(low_camera_, watch_of(rig.rig, "low")) {}
 
 }  // namespace hogline

@@ -48,6 +48,16 @@ TEST(ThrowerRig, a_rig_for_pictures_alone_is_refused_with_the_section_it_lacks) 
   }
 }
 
+TEST(ThrowerRig, a_cameras_silence_must_be_longer_than_a_look) {
+  try {
+    parse_thrower_rig(with("near_s: 0.050", "near_s: 0.2"), "rig.yaml");
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_EQ(e.key, "cameras.near.source.silence_limit_s");
+    EXPECT_NE(e.allowed.find("0.2"), std::string::npos) << e.allowed;
+  }
+}
+
 TEST(ThrowerRig, a_release_that_could_break_the_hog_line_rule_is_refused) {
   try {
     parse_thrower_rig(with("tolerance_m: 0.08", "tolerance_m: 0.12"), "rig.yaml");
