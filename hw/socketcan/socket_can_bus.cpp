@@ -154,6 +154,11 @@ CanSendResult SocketCanBus::send(const CanFrame& frame) {
     return CanSendResult::bus_down;
   }
 
+  if (matches_any(config_.one_at_a_time, frame) && sent_.holds(frame)) {
+    ++state_.counters.would_block;
+    return CanSendResult::would_block;
+  }
+
   const int error = frames_->send(frame);
   if (error == EAGAIN || error == ENOBUFS) {
     ++state_.counters.would_block;
