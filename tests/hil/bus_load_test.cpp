@@ -26,7 +26,7 @@ namespace {
 constexpr std::array<std::uint8_t, 4> nodes{1, 2, 3, 4};
 constexpr std::array<std::uint32_t, 6> rpdos{0x201, 0x202, 0x203, 0x303, 0x204, 0x304};
 constexpr std::array<std::uint32_t, 8> tpdos{0x181, 0x281, 0x182, 0x282, 0x183, 0x283, 0x184, 0x284};
-constexpr Duration test_time = 10s;
+constexpr Duration test_time = 6s;
 
 std::vector<CanFilter> filters(const std::vector<std::uint32_t>& ids) {
   std::vector<CanFilter> result;
