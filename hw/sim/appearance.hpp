@@ -96,6 +96,7 @@ struct PersonLook {
   double y_m = 0.0;
   double facing_rad = 0.0;  ///< direction of the look from e's y axis, counter-clockwise
   double height_m = 1.75;
+  double stride_m = 0.0;  ///< the left leg ahead of the right by this
   Colour jacket{0.10F, 0.45F, 0.10F};
   Colour trousers{0.03F, 0.03F, 0.05F};
   Colour skin{0.45F, 0.28F, 0.20F};

@@ -98,8 +98,9 @@ Solid Solid::person(const PersonLook& look) {
   s.turn_cos_ = static_cast<float>(std::cos(look.facing_rad));
   s.turn_sin_ = static_cast<float>(std::sin(look.facing_rad));
   const auto h = static_cast<float>(look.height_m);
+  const auto stride = static_cast<float>(look.stride_m);
   for (const float side : {-1.0F, 1.0F}) {
-    s.add(Shape::box, {side * 0.10F, 0.0F, 0.235F * h}, {0.07F, 0.08F, 0.235F * h}, look.trousers);
+    s.add(Shape::box, {side * 0.10F, -side * 0.5F * stride, 0.235F * h}, {0.07F, 0.08F, 0.235F * h}, look.trousers);
     s.add(Shape::box, {side * 0.24F, 0.02F, 0.64F * h}, {0.05F, 0.06F, 0.17F * h}, look.jacket);
   }
   s.add(Shape::ellipsoid, {0.0F, 0.0F, 0.65F * h}, {0.20F, 0.14F, 0.22F * h}, look.jacket);
