@@ -40,9 +40,9 @@ struct NearSequence::Impl {
   CameraSetup setup;
   NearView view;
   SheetTrack track;
-  PlanarMotion motion;      // empty: nothing to track
-  Pose eMc;                 // at the newest place of the motion
-  double turned_rad = 0.0;  // by the gyro since then
+  PlanarMotion motion;                     // empty: nothing to track
+  Pose eMc;                                // at the newest place of the motion
+  std::optional<double> turned_rad = 0.0;  // by the gyro since then; nothing when it did not speak for every frame
   std::optional<Stamp> last_stamp;
   SheetPosePercept percept;
   NearSequenceDiagnosis diagnosis;
@@ -89,13 +89,12 @@ bool NearSequence::Impl::follow(const cv::Mat& image, Stamp stamp, std::optional
     diagnosis.lost = "no frame before shows the sheet";
     return false;
   }
-  turned_rad += yaw_increment_rad.value_or(0.0);
+  turned_rad = turned_rad && yaw_increment_rad ? std::optional(*turned_rad + *yaw_increment_rad) : std::nullopt;
   if (seconds(stamp - motion.last_stamp()) > longest_gap_s) {
     diagnosis.lost = "the frames before are too old";
     return false;
   }
-  const std::optional<double> turned = yaw_increment_rad ? std::optional(turned_rad) : std::nullopt;
-  if (!track.follow(image, predict(stamp, turned, Trust::usual)).ok) {
+  if (!track.follow(image, predict(stamp, turned_rad, Trust::usual)).ok) {
     // A jerk, or a gyro that errs: a wide search costs a twentieth of an acquisition.
     track.follow(image, predict(stamp, std::nullopt, Trust::little));
   }

@@ -162,7 +162,9 @@ MovedEdge MovingEdges::follow(const Picture& picture, const MovingEdge& edge) co
   const bool line = edge.width_px >= 0.0;
   const int half_width = line ? static_cast<int>(std::lround(std::max(0.5 * edge.width_px, least_half_width_px))) : 0;
   const int steps = std::clamp(edge.range_px, 1, max_range_px) + half_width;
-  if (!edge.pixel.allFinite() || half_width > most_half_width_px) return {};
+  const bool inside = edge.pixel.x() >= 0.0 && edge.pixel.y() >= 0.0 && edge.pixel.x() < picture.width_px &&
+                      edge.pixel.y() < picture.height_px;
+  if (!inside || half_width > most_half_width_px) return {};
   if (!impl_->cut_out(picture, edge, steps)) return {};
 
   const double angle = std::atan2(edge.normal.y(), edge.normal.x());

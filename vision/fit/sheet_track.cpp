@@ -80,6 +80,7 @@ const SheetFitResult& SheetTrack::Impl::follow(const cv::Mat& image, const Sheet
   fit.clear_result();
   start.eMc = prediction.eMc;
   if (std::string why = fit.unusable(image, start); !why.empty()) return fit.refuse(std::move(why));
+  if (!prediction.covariance.allFinite() || !prediction.travel.allFinite()) return fit.refuse("no usable prediction");
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, fit.response};
 
   fit.state = last;
