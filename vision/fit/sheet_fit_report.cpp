@@ -13,8 +13,10 @@ namespace {
 constexpr double most_sigma_yaw_rad = 1.0 * std::numbers::pi / 180.0;
 constexpr double most_residual_px = 1.5;
 constexpr double least_share = 0.4;  // of the places looked at
-// Error common to a whole feature: paint against the rules, lens against its calibration.
-constexpr double shared_error_px = 0.03;
+// Error common to a whole feature, which its residuals do not show: compression and colour interpolation move what is
+// seen by about 0.01 px all over a picture (measured on rendered scenes), and a good calibration of the lens leaves as
+// much. The mount's own error is not in it: it is constant, and part of no picture.
+constexpr double shared_error_px = 0.015;
 // A divider's shade and mirror image move both its feet the same way: measured 3 to 5 mm of width from 2 m above.
 constexpr double foot_sigma_m = 0.004;
 // Of the whole sheet's paint against the rules' numbers, which no residual shows.
