@@ -31,6 +31,17 @@ struct Hypothesis {
   std::string origin;
 };
 
+// A line that every sheet has and that nothing hides, of which next to nothing is there: a house seen from its other
+// side has its back line elsewhere.
+bool a_line_is_missing(const SheetFitResult& result) {
+  return std::ranges::any_of(result.features, [](const FittedFeature& f) {
+    const bool every_sheet =
+        f.name == "back_line" || f.name == "tee_line" || f.name == "hog_line" || f.name == "centre_line";
+    const int in_sight = f.sites_tried - f.sites_hidden;
+    return every_sheet && in_sight >= 12 && f.sites_used < 0.1 * in_sight;
+  });
+}
+
 template <typename T>
 std::vector<T> first(const std::vector<T>& all) {
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_candidates))};
@@ -169,11 +180,12 @@ std::string NearView::Impl::doubt(const SheetFitResult& result) const {
   int lines_used = 0;
   for (const FittedFeature& f : result.features) {
     const bool ring = f.name.ends_with("_ring");
-    (ring ? rings_tried : lines_tried) += f.sites_tried;
+    (ring ? rings_tried : lines_tried) += f.sites_tried - f.sites_hidden;
     (ring ? rings_used : lines_used) += f.sites_used;
   }
   if (rings_used < 60 || rings_used < 0.4 * rings_tried) return "the rings are not where the pose puts them";
   if (lines_used < 40 || lines_used < 0.4 * lines_tried) return "the lines are not where the pose puts them";
+  if (a_line_is_missing(result)) return "a line is missing where the pose puts it";
   return {};
 }
 

@@ -40,7 +40,9 @@ struct SheetFit::Impl {
               int half_breadth);
   void judge(const SheetFitStart& start);
   void report_width();
+  void find_hidden();
   void report_sites();
+  std::string refusal(const SheetFitStart& start) const;
   const SheetFitResult& refuse(std::string reason);
 
   CameraSetup setup;
@@ -54,6 +56,7 @@ struct SheetFit::Impl {
   std::vector<Candidates> wide;
   std::vector<SiteMeasurement> found;
   std::vector<double> scratch;
+  std::vector<bool> hidden;  // of the sites
   CloseStep step;
   Profile profile;
   SheetFitResult result;
