@@ -31,14 +31,13 @@ struct Hypothesis {
   std::string origin;
 };
 
-// A line that every sheet has and that nothing hides, of which next to nothing is there: a house seen from its other
-// side has its back line elsewhere.
+// The back line or the hog line in plain sight, and little of it there: a house seen from its other side or from beside
+// it, where rings, tee line and centre line look the same.
 bool a_line_is_missing(const SheetFitResult& result) {
   return std::ranges::any_of(result.features, [](const FittedFeature& f) {
-    const bool every_sheet =
-        f.name == "back_line" || f.name == "tee_line" || f.name == "hog_line" || f.name == "centre_line";
     const int in_sight = f.sites_tried - f.sites_hidden;
-    return every_sheet && in_sight >= 12 && f.sites_used < 0.1 * in_sight;
+    const bool plain = in_sight >= 20 && in_sight >= 0.5 * f.sites_tried;
+    return (f.name == "back_line" || f.name == "hog_line") && plain && f.sites_used < 0.3 * in_sight;
   });
 }
 
