@@ -83,20 +83,19 @@ SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSk
   const LineClasses classes = classify(lines, impl_->view, impl_->range);
   if (sketch != nullptr) draw_candidates(classes, impl_->view, *sketch);
 
-  std::vector<Hypothesis> hypotheses;
-  if (const auto h = impl_->by_four_points(image, points, classes, sketch)) hypotheses.push_back(*h);
-  if (const auto h = impl_->by_ring_vote(points, classes)) hypotheses.push_back(*h);
   nothing.reason = "no house and lines found that fit a robot before its house";
-
-  for (const Hypothesis& hypothesis : hypotheses) {
+  for (const bool by_lines : {true, false}) {
+    const auto hypothesis =
+        by_lines ? impl_->by_four_points(image, points, classes, sketch) : impl_->by_ring_vote(points, classes);
+    if (!hypothesis) continue;
     SheetFitStart start;
-    start.eMc = hypothesis.eMc;
-    start.search_px = hypothesis.search_px;
+    start.eMc = hypothesis->eMc;
+    start.search_px = hypothesis->search_px;
     const SheetFitResult& result = impl_->fit.fit(image, start);
     nothing.reason = result.ok ? impl_->doubt(result) : result.reason;
     if (!nothing.reason.empty()) continue;
     if (sketch != nullptr) draw_model(result.eMc, impl_->setup, result.sheet_width_m, *sketch);
-    return impl_->percept(result, hypothesis.origin, stamp);
+    return impl_->percept(result, hypothesis->origin, stamp);
   }
   return nothing;
 }

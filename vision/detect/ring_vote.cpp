@@ -16,6 +16,7 @@ constexpr std::array<double, 3> radii_m{rules::outer_ring_radius_m, rules::middl
                                         rules::inner_ring_radius_m};
 constexpr int fewest_supporters = 60;
 constexpr int most_peaks = 8;
+constexpr int last_round = 5;
 constexpr std::size_t sectors = 24;
 constexpr int fewest_on_arc = 6;
 constexpr double near_circle_m = 0.10;
@@ -103,11 +104,10 @@ std::size_t sector_of(const Eigen::Vector2d& direction) {
 RingVote refine(const std::vector<EdgePoint>& points, Eigen::Vector2d centre) {
   int supporters = 0;
   std::array<int, sectors * radii_m.size()> on_arc{};
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round <= last_round; ++round) {
     Eigen::Matrix2d normal = 1e-6 * Eigen::Matrix2d::Identity();
     Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
     supporters = 0;
-    on_arc.fill(0);
     const double within = round < 2 ? 2.5 * near_circle_m : near_circle_m;
     for (const EdgePoint& p : points) {
       const Eigen::Vector2d offset = p.ground - centre;
@@ -126,7 +126,7 @@ RingVote refine(const std::vector<EdgePoint>& points, Eigen::Vector2d centre) {
       normal += u * u.transpose();
       rhs += nearest * u;
       ++supporters;
-      ++on_arc[ring * sectors + sector_of(u)];
+      if (round == last_round) ++on_arc[ring * sectors + sector_of(u)];
     }
     if (supporters < 10) break;
     centre += normal.inverse() * rhs;
