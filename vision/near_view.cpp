@@ -91,6 +91,7 @@ SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSk
     SheetFitStart start;
     start.eMc = hypothesis->eMc;
     start.search_px = hypothesis->search_px;
+    start.paint_depth_sigma_m = impl_->setup.paint_depth_sigma_m;
     const SheetFitResult& result = impl_->fit.fit(image, start);
     nothing.reason = result.ok ? impl_->doubt(result) : result.reason;
     if (!nothing.reason.empty()) continue;
