@@ -11,7 +11,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr int scenes = 10;
+constexpr int scenes = 6;
 
 struct Errors {
   double yaw_deg = 0.0;  // RMS
