@@ -1,4 +1,4 @@
-// The joint fit behind SheetFit: its state and its steps. For the two source files of SheetFit only.
+// The joint fit behind SheetFit: its state and its steps. For the source files of SheetFit and SheetTrack only.
 #pragma once
 
 #include <cmath>
@@ -8,6 +8,12 @@
 
 namespace hogline::vision {
 
+/// A square piece of the picture: how much paint was looked for in it, and how much fits.
+struct SeenPiece {
+  int tried = 0;
+  int used = 0;
+};
+
 struct SheetFit::Impl {
   explicit Impl(const CameraSetup& given)
       : setup(given), lens(given.intrinsics), response(given.gamma), bRc(bMc(given.mount).linear()) {
@@ -15,6 +21,7 @@ struct SheetFit::Impl {
     found.reserve(2000);
     wide.reserve(1000);
     scratch.reserve(2000);
+    hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
   }
@@ -23,6 +30,7 @@ struct SheetFit::Impl {
 
   std::string unusable(const cv::Mat& image, const SheetFitStart& start) const;
   SheetCamera camera() const { return {lens, state.eMc, Ice{state.paint_depth_m, setup.ice.refractive_index}}; }
+  void clear_result();
   void begin(const SheetFitStart& start);
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
@@ -38,6 +46,7 @@ struct SheetFit::Impl {
   void find_sidelines(const PictureLight& light, const SheetFitStart& start);
   void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
               int half_breadth);
+  Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
   void find_hidden();
@@ -56,6 +65,7 @@ struct SheetFit::Impl {
   std::vector<Candidates> wide;
   std::vector<SiteMeasurement> found;
   std::vector<double> scratch;
+  std::vector<SeenPiece> pieces;
   std::vector<bool> hidden;  // of the sites
   CloseStep step;
   Profile profile;
