@@ -21,6 +21,8 @@ struct SheetFit::Impl {
     found.reserve(2000);
     wide.reserve(1000);
     scratch.reserve(2000);
+    step.residual_px.reserve(2000);
+    step.weight.reserve(2000);
     hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
