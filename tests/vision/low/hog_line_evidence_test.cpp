@@ -72,6 +72,13 @@ INSTANTIATE_TEST_SUITE_P(
                        s.patches.push_back({{-2.4, 2.4}, {hog_m, hog_m + 0.5}, blue});
                      },
                      "not as a hog line should be"},
+        EvidenceCase{"the_ice_between_two_logos",
+                     [](PaintedSheet& s) {
+                       s.hog_line = false;
+                       s.patches.push_back({{-2.4, 2.4}, {hog_m - 0.5, hog_m}, blue});
+                       s.patches.push_back({{-2.4, 2.4}, {hog_m + rules::hog_line_width_m, hog_m + 0.5}, blue});
+                     },
+                     "not as a hog line should be"},
         EvidenceCase{"half_as_long",
                      [](PaintedSheet& s) {
                        s.hog_line = false;
