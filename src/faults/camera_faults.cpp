@@ -41,13 +41,13 @@ Case on(Case c, Duration lasts) {
 
 std::vector<Case> camera_faults() {
   const Action well = low(Fault::none);
-  Case never = stops("no first frame", "the near camera delivers nothing from power-on", 15s, "near",
+  Case never = stops("no first frame", "the near camera delivers nothing from power-on", 8s, "near camera",
                      near(Fault::stopped), near(Fault::none));
   never.strike = Strike::power_on;
   return {
       never,
-      with(stops("frames stop", "near camera, while the robot turns", 270ms, "near", near(Fault::stopped),
-                 near(Fault::none)),
+      with(stops("frames stop", "near camera, while the robot turns", 165ms, "near camera: timeout",
+                 near(Fault::stopped), near(Fault::none)),
            Strike::aligning),
       stops("frames stop", "low camera", 205ms, "low camera: timeout: no frame", low(Fault::stopped), well),
       on(stops("one frame missing", "nothing for 20 ms", {}, "", low(Fault::stopped), well), 20ms),

@@ -127,7 +127,10 @@ std::vector<Case> frames() {
           "every second frame lost", "loss 50 %", 300ms, "timeout", [](Site& s) { bus(s).set_faults(0.5, 0.0, 0.0); },
           clean),
       goes_on(
-          "one frame in ten doubled", "duplication 10 % until the end", {},
+          "one frame in a hundred doubled", "duplication 1 % until the end", {},
+          [](Site& s) { bus(s).set_faults(0.0, 0.01, 0.0); }, clean),
+      stops(
+          "one frame in ten doubled", "duplication 10 %", 1s, "protocol: sends twice",
           [](Site& s) { bus(s).set_faults(0.0, 0.1, 0.0); }, clean),
       stops(
           "every frame doubled", "duplication 100 %", 45ms, "protocol: sends twice",
@@ -136,8 +139,8 @@ std::vector<Case> frames() {
           "frames reordered", "each tenth frame overtakes its node's next one, until the end", {},
           [](Site& s) { bus(s).set_reordering(0.1); }, clean),
       stops(
-          "frames corrupted", "a wrong bit in each frame, passed by the CRC", 60ms, "left wheel",
-          [](Site& s) { bus(s).set_faults(0.0, 0.0, 1.0); }, clean),
+          "frames corrupted", "a wrong bit in one frame of twenty, passed by the CRC", 200ms, "wheel (node",
+          [](Site& s) { bus(s).set_faults(0.0, 0.0, 0.05); }, clean),
       goes_on(
           "one SYNC lost", "080 is away for one period", 5ms,
           [](Site& s) {

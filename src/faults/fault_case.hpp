@@ -14,21 +14,23 @@ const char* to_string(Group group);
 
 /// When the fault strikes.
 enum class Strike {
-  power_on,    ///< before the devices boot
-  measuring,   ///< 0.3 s after the robot began to measure its place
-  aligning,    ///< 0.3 s after it began to turn
-  full_speed,  ///< in the run, at 2.5 m/s less 2 %
-  braking,     ///< 0.1 s after a first fault at full speed stopped the robot
-  too_late,    ///< in the run, when the robot can not stop before the hog line any more
-  released,    ///< in the period after the one that ordered the release
+  power_on,     ///< before the devices boot
+  measuring,    ///< 0.3 s after the robot began to measure its place
+  aligning,     ///< 0.3 s after it began to turn
+  speeding_up,  ///< 1 s into the run
+  full_speed,   ///< in the run, at 2.5 m/s less 2 %
+  braking,      ///< 0.1 s after a first fault at full speed stopped the robot
+  too_late,     ///< in the run, when the robot can not stop before the hog line any more
+  released,     ///< in the period after the one that ordered the release
 };
 const char* to_string(Strike strike);
 
 enum class Expect {
-  stops,           ///< aborts, brakes, keeps the stone
-  goes_on,         ///< survivable by design: the stone is released in its window, within tolerance
-  does_not_start,  ///< found before anything is powered
-  brakes_after,    ///< the stone was let go in its window; the robot brakes
+  stops,                ///< aborts, brakes, keeps the stone
+  goes_on,              ///< survivable by design: the stone is released in its window, within tolerance
+  does_not_start,       ///< found before anything is powered
+  stops_without_stone,  ///< the jaws lose it: it can not be kept
+  brakes_after,         ///< the stone was let go in its window; the robot brakes
 };
 
 /// What a fault can get hold of. Wires and devices; nothing of the program but whether it runs.

@@ -57,6 +57,7 @@ std::string outcome_of(const Row& row) {
     default:
       break;
   }
+  if (row.fault.expect == Expect::stops_without_stone) return "stops, stone lost by the jaws";
   if (!f.held) return f.result.release ? "stone let go in its window, stops" : "stops, stone lost";
   if (f.over_the_line) return "stops, stone kept beyond the hog line";
   return "stops, stone kept";
@@ -91,10 +92,10 @@ std::string group_of(const std::vector<Row>& rows, Group group) {
 std::string shortcomings(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
-    if (row.finding.failures.empty()) continue;
-    text += fmt::format("- **{}** ({}, {}): {}.", row.fault.name, row.fault.injected, when(row.fault.strike),
-                        fmt::join(row.finding.failures, "; "));
-    text += row.fault.shortcoming.empty() ? "\n" : " " + row.fault.shortcoming + "\n";
+    if (row.finding.failures.empty() && row.fault.shortcoming.empty()) continue;
+    text += fmt::format("- **{}** ({}, {}): {}\n", row.fault.name, row.fault.injected, when(row.fault.strike),
+                        row.fault.shortcoming.empty() ? fmt::format("{}", fmt::join(row.finding.failures, "; "))
+                                                      : row.fault.shortcoming);
   }
   return "\n## Not survived as it should be\n\n" + (text.empty() ? "None.\n" : text);
 }

@@ -26,6 +26,8 @@ const char* to_string(Strike strike) {
       return "measuring";
     case Strike::aligning:
       return "aligning";
+    case Strike::speeding_up:
+      return "speeding up";
     case Strike::full_speed:
       return "run";
     case Strike::braking:

@@ -44,8 +44,8 @@ std::vector<Case> host_faults() {
   const Action nothing = [](Site&) {};
   const Action late = [](Site& s) { s.loop_late = 30ms; };
   Case killed = stops(
-      "program killed or hung", "the control loop does not run until the robot stands", 60ms,
-      "control period: too long", [](Site& s) { s.loop_dead = true; }, [](Site& s) { s.loop_dead = false; });
+      "program killed or hung", "the control loop does not run until the robot stands", 60ms, "on the bus: EMCY 8250",
+      [](Site& s) { s.loop_dead = true; }, [](Site& s) { s.loop_dead = false; });
   return {
       on(stops("control thread late by 4 ms", "one period", {}, "", [](Site& s) { s.loop_late = 4ms; }, {})),
       stops("control thread late by 30 ms", "one period", 40ms, "", late, nothing),
@@ -80,7 +80,7 @@ std::vector<Case> host_faults() {
                [](Site& s) { s.right().power_cycle(); }),
            Strike::braking),
       with(stops(
-               "second fault during the reaction", "Modbus dies while the robot brakes", 2s, "",
+               "second fault during the reaction", "Modbus dies while the robot brakes", 85ms, "jaws: disconnected",
                [](Site& s) { s.rink().modbus().stop(); }, [](Site& s) { s.rink().modbus().restart(); }),
            Strike::braking),
   };

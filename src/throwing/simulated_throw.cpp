@@ -109,6 +109,9 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
     if (robot_done && !slides) break;
   }
   outcome.result = judge.verdict(robot.rink().truth(), loop.thrower(), robot.rink().now());
+  for (const hw::DeviceError& error : loop.device_errors()) {
+    outcome.result.device_errors.push_back(error.device + ": " + to_string(error.kind) + ": " + error.what);
+  }
   outcome.near_sight = vision.near_sight();
   outcome.low_sight = vision.low_sight();
   return outcome;
