@@ -10,6 +10,7 @@
 #include "hw/sim/rink.hpp"
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
+#include "src/throwing/rink_gyro_line.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
@@ -35,6 +36,7 @@ class SimulatedRobot {
   hw::ModbusSession session_;
   hw::ModbusGripper gripper_;
   hw::ModbusArm arm_;
+  RinkGyroLine gyro_line_;
   hw::Dsp3000Gyro gyro_;
   hw::sim::RenderedCamera near_camera_;
   hw::sim::RenderedCamera low_camera_;

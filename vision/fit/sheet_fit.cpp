@@ -72,7 +72,7 @@ void SheetFit::Impl::clear_result() {
   result.sheet_width_m.reset();
   result.sites.clear();
   result.features.clear();
-  result.sites_tried = result.sites_used = 0;
+  result.sites_tried = result.sites_used = result.sites_hidden = 0;
 }
 
 void SheetFit::Impl::begin(const SheetFitStart& start) {

@@ -41,6 +41,7 @@ struct FittedFeature {
   std::string name;  ///< outer_ring, middle_ring, inner_ring, button, centre_line, hog_line, left_sideline, ...
   int sites_tried = 0;
   int sites_used = 0;
+  int sites_hidden = 0;  ///< of those tried: where the picture bears out no paint at all round about
 };
 
 /// `ok == false` with a reason when too little was found or the fit is not determined.
@@ -59,6 +60,7 @@ struct SheetFitResult {
   double residual_px = 0.0;
   int sites_tried = 0;
   int sites_used = 0;
+  int sites_hidden = 0;  ///< of those tried: somebody or something stands before them
   std::vector<FittedFeature> features;
   std::vector<EdgeSite> sites;
 };

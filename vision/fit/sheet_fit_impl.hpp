@@ -8,6 +8,12 @@
 
 namespace hogline::vision {
 
+/// A square piece of the picture: how much paint was looked for in it, and how much fits.
+struct SeenPiece {
+  int tried = 0;
+  int used = 0;
+};
+
 struct SheetFit::Impl {
   explicit Impl(const CameraSetup& given)
       : setup(given), lens(given.intrinsics), response(given.gamma), bRc(bMc(given.mount).linear()) {
@@ -15,6 +21,7 @@ struct SheetFit::Impl {
     found.reserve(2000);
     wide.reserve(1000);
     scratch.reserve(2000);
+    hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
   }
@@ -42,7 +49,9 @@ struct SheetFit::Impl {
   Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
+  void find_hidden();
   void report_sites();
+  std::string refusal(const SheetFitStart& start) const;
   const SheetFitResult& refuse(std::string reason);
 
   CameraSetup setup;
@@ -56,6 +65,8 @@ struct SheetFit::Impl {
   std::vector<Candidates> wide;
   std::vector<SiteMeasurement> found;
   std::vector<double> scratch;
+  std::vector<SeenPiece> pieces;
+  std::vector<bool> hidden;  // of the sites
   CloseStep step;
   Profile profile;
   SheetFitResult result;

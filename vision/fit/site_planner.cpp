@@ -22,6 +22,8 @@ double least_room_px(double blur_px) { return 1.2 * blur_px + 1.0; }
 // A divider's foot is seen between the shade it throws on the ice and its mirror image in it: measured 0.3-0.5 px of
 // scatter that neighbouring sites share, where paint has 0.1.
 constexpr double foot_floor_px = 0.5;
+// Further away the shade is thinner than a pixel and pulls the foot inwards: measured 0.5 px.
+constexpr double most_foot_m_per_px = 0.012;
 
 // A curve on the sheet: its points, its direction, and the direction its edge faces.
 struct Curve {
@@ -197,6 +199,7 @@ struct Planner {
     site.sense = by_width > 0.0 ? -1 : 1;
     move_by_sideline(curve, *seen, edge_parameter, by_width, moves_camera, site);
     if (curve.on_surface) {
+      if (std::abs(per_px.x()) > most_foot_m_per_px) return;
       site.floor_px = foot_floor_px;
       site.before_px = std::min(site.before_px, 1.5 * site.blur_px + 1.0);
     }
