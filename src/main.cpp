@@ -6,6 +6,7 @@
 
 #include "src/config/config_error.hpp"
 #include "src/demo_command.hpp"
+#include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/pose_command.hpp"
 #include "src/throw_command.hpp"
@@ -34,14 +35,19 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       ->check(CLI::IsMember({"near", "low"}));
   pose->add_flag("--sequence", options.sequence,
                  "the pictures are consecutive frames: each is predicted from those before");
-  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence")->capture_default_str();
+  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence; without it 60, and a video's own");
   pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
-  pose->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  pose->add_option(
+          "IMAGE", options.images,
+          "pictures as the camera gives them, or one recording of them: a folder, a video, a stamps file (.csv)")
+      ->required();
   pose->footer(
       "Examples:\n"
       "  hogline pose --rig rig.yaml --camera near frame.jpg\n"
       "  hogline pose --rig rig.yaml --camera near --sequence --rate 60 turn-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
+      "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
+      "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return pose;
 }
@@ -84,6 +90,22 @@ CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
   return demo;
 }
 
+CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
+  auto* doctor =
+      app.add_subcommand("doctor", "every device of a rig: what is found, what is wrong, what to do; moves nothing");
+  doctor->add_option("--rig", options.rig, "rig file (YAML)")->required();
+  doctor->add_flag("--simulated", options.simulated, "examine the simulated rink in the place of the rig's devices");
+  doctor->add_flag("--json", options.json, "one JSON object instead of a table");
+  doctor->footer(
+      "Examples:\n"
+      "  hogline doctor --rig rig.yaml\n"
+      "  hogline doctor --rig config/rigs/practice.yaml --simulated --json\n"
+      "It listens and reads; nothing is switched on and nothing is ordered. A rig whose cameras are all simulated is\n"
+      "examined on the simulated rink. Takes ten to thirty seconds.\n"
+      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration.");
+  return doctor;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -95,6 +117,8 @@ int run(int argc, char** argv) {
   const auto* pose = add_pose(app, pose_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
+  hogline::DoctorOptions doctor_options;
+  const auto* doctor = add_doctor(app, doctor_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -102,6 +126,7 @@ int run(int argc, char** argv) {
   }
   if (*pose) return hogline::run_pose(pose_options);
   if (*throwing) return hogline::run_throw(throw_options);
+  if (*doctor) return hogline::run_doctor(doctor_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }

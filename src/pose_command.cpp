@@ -9,13 +9,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "hw/files/image_file.hpp"
 #include "hw/files/png_writer.hpp"
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
 #include "src/drawing/picture_overlay.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
+#include "src/picture_reader.hpp"
 #include "vision/low_sequence.hpp"
 #include "vision/low_view.hpp"
 #include "vision/near_sequence.hpp"
@@ -71,33 +71,18 @@ Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup
 }
 
 void save(const std::string& folder, const std::string& image, const cv::Mat& drawing) {
-  const std::filesystem::path name = std::filesystem::path(image).stem();
+  std::filesystem::path name = std::filesystem::path(image).filename();
+  if (name.string().find('#') == std::string::npos) name = name.stem();
   if (const auto problem = hw::files::write_png((std::filesystem::path(folder) / name).string() + ".png", drawing)) {
     throw std::runtime_error(*problem);
   }
 }
 
 void check_use(const PoseOptions& options) {
-  if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
-    throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
+  if (options.rate_hz && !(*options.rate_hz > 0.0 && *options.rate_hz <= 1000.0)) {
+    throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", *options.rate_hz),
                               "must be above 0, at most 1000 frames a second");
   }
-  for (const std::string& image : options.images) {
-    if (!std::filesystem::is_regular_file(image)) {
-      throw config::ConfigError(image, 0, "", "", "no such picture; give the path of a readable JPEG or PNG file");
-    }
-  }
-}
-
-// A picture that is none is wrong use; one that another camera took is a picture in which nothing can be estimated.
-hw::files::LoadedImage read_picture(const std::string& path, const vision::Intrinsics& camera) {
-  using hw::files::ImageErrorKind;
-  hw::files::LoadedImage loaded = hw::files::load_image(path, {camera.width_px, camera.height_px});
-  if (loaded.error && loaded.error->kind != ImageErrorKind::wrong_size &&
-      loaded.error->kind != ImageErrorKind::wrong_format) {
-    throw config::ConfigError(path, 0, "", "", loaded.error->what);
-  }
-  return loaded;
 }
 
 SheetPosePercept not_seen(const std::string& reason, Stamp stamp) {
@@ -113,23 +98,22 @@ int run_pose(const PoseOptions& options) {
   check_use(options);
   const config::Rig rig = config::load_rig(options.rig);
   const vision::CameraSetup& setup = rig.camera(options.camera);
+  const PictureReader next =
+      read_pictures(options.images, {setup.intrinsics.width_px, setup.intrinsics.height_px}, options.rate_hz);
   const Estimator estimate = estimator(options, setup);
 
   bool all_estimated = true;
-  Stamp stamp{};
-  for (const std::string& path : options.images) {
-    const hw::files::LoadedImage image = read_picture(path, setup.intrinsics);
+  while (const auto picture = next()) {
     cv::Mat drawing;
     const auto begin = std::chrono::steady_clock::now();
-    const SheetPosePercept percept = image.error
-                                         ? not_seen(image.error->what, stamp)
-                                         : estimate(image.bgr, stamp, options.draw.empty() ? nullptr : &drawing);
+    const SheetPosePercept percept =
+        picture->bgr.empty() ? not_seen(picture->problem, picture->stamp)
+                             : estimate(picture->bgr, picture->stamp, options.draw.empty() ? nullptr : &drawing);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-    fmt::print("{}\n", pose_line(path, percept, elapsed.count()));
+    fmt::print("{}\n", pose_line(picture->name, percept, elapsed.count()));
     std::fflush(stdout);
-    if (!drawing.empty()) save(options.draw, path, drawing);
+    if (!drawing.empty()) save(options.draw, picture->name, drawing);
     all_estimated = all_estimated && percept.ok;
-    stamp += from_seconds(1.0 / options.rate_hz);
   }
   return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -16,6 +18,13 @@ std::optional<std::string> first_error(const ThrowerDevices& devices) {
     if (error) return fmt::format("{}: {}: {}", error->device, to_string(error->kind), error->what);
   }
   return std::nullopt;
+}
+
+// By the wheels alone: the gyro's bias is what it shows then.
+bool stands(const hw::DriveState& drive) {
+  constexpr double standing_radps = 0.002;
+  return heard(drive.stamp) && !drive.error && std::abs(drive.measured.left_radps) < standing_radps &&
+         std::abs(drive.measured.right_radps) < standing_radps;
 }
 
 std::optional<servo::WheelObservation> observe_wheels(const hw::DriveState& drive) {
@@ -61,6 +70,7 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.drive.step(now);
   devices_.gripper.step(now);
   devices_.arm.step(now);
+  devices_.gyro.at_rest(stands(devices_.drive.state()));
   devices_.gyro.step(now);
   eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
 

@@ -86,7 +86,8 @@ TEST_P(Faults, early_in_the_run_end_in_a_stop_before_the_line_with_the_stone) {
 
 INSTANTIATE_TEST_SUITE_P(Table, Faults,
                          testing::Values("drive-heartbeat@1.0", "drive-dies@1.0", "camera-freeze@1.0",
-                                         "camera-stops@1.0", "modbus-stop@1.0", "gyro-silent@1.0", "can-down@1.0"));
+                                         "camera-stops@1.0", "camera-black@1.0", "modbus-stop@1.0", "gyro-silent@1.0",
+                                         "can-down@1.0"));
 
 TEST(Throw, the_same_seed_gives_the_same_throw) {
   ThrowRequest request = request_of(tee_draw);
