@@ -92,6 +92,7 @@ SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSk
     SheetFitStart start;
     start.eMc = hypothesis->eMc;
     start.search_px = hypothesis->search_px;
+    start.may_be_hidden = true;
     start.paint_depth_sigma_m = impl_->setup.paint_depth_sigma_m;
     const SheetFitResult& result = impl_->fit.fit(image, start);
     nothing.reason = result.ok ? impl_->doubt(result) : result.reason;
