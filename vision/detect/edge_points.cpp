@@ -114,13 +114,17 @@ bool complete(EdgePoint& point, const Eigen::Vector2d& gradient, const GroundVie
 
 std::vector<EdgePoint> find_edge_points(const cv::Mat& image, const GroundView& view, const EdgePointOptions& options) {
   const int top = view.first_row(options.range_m) & ~1;
+  if (image.rows - top < 16) return {};
+  return find_edge_points(darkest_half(image, top), top, view, options);
+}
+
+std::vector<EdgePoint> find_edge_points(const cv::Mat& half, int top, const GroundView& view,
+                                        const EdgePointOptions& options) {
   std::vector<EdgePoint> points;
-  if (image.rows - top < 16) return points;
-  const cv::Mat darkest = darkest_half(image, top);
   cv::Mat dx;
   cv::Mat dy;
-  cv::Sobel(darkest, dx, CV_16S, 1, 0);
-  cv::Sobel(darkest, dy, CV_16S, 0, 1);
+  cv::Sobel(half, dx, CV_16S, 1, 0);
+  cv::Sobel(half, dy, CV_16S, 0, 1);
   const int threshold = static_cast<int>(std::max(5.0 * gradient_noise(dx), 24.0));
 
   const Gradient gradient{dx, dy};

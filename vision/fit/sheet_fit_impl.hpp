@@ -21,6 +21,8 @@ struct SheetFit::Impl {
     found.reserve(2000);
     wide.reserve(1000);
     scratch.reserve(2000);
+    step.residual_px.reserve(2000);
+    step.weight.reserve(2000);
     hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
@@ -36,7 +38,7 @@ struct SheetFit::Impl {
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
   double borne_out() const;
-  bool sidelines_borne_out() const;
+  bool sideline_borne_out(int side) const;
   bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
                    const std::optional<Consensus>& consensus);
