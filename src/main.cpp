@@ -8,6 +8,7 @@
 #include "src/demo_command.hpp"
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
+#include "src/faults_command.hpp"
 #include "src/pose_command.hpp"
 #include "src/throw_command.hpp"
 
@@ -106,6 +107,18 @@ CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
   return doctor;
 }
 
+CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
+  auto* faults = app.add_subcommand("faults", "every fault of the table in a whole simulated throw, as a page");
+  faults->add_option("--out", options.out, "the page's file (Markdown); without it stdout");
+  faults->add_option("--only", options.only, "only cases whose group, name or way of injection contains this");
+  faults->footer(
+      "Examples:\n"
+      "  hogline faults --out doc/faults.md\n"
+      "  hogline faults --only Gyro\n"
+      "Exit status: 0 all ended as they should, 1 some did not (the page says which).");
+  return faults;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -119,6 +132,8 @@ int run(int argc, char** argv) {
   const auto* demo = add_demo(app, demo_options);
   hogline::DoctorOptions doctor_options;
   const auto* doctor = add_doctor(app, doctor_options);
+  hogline::FaultsOptions faults_options;
+  const auto* faults = add_faults(app, faults_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -127,6 +142,7 @@ int run(int argc, char** argv) {
   if (*pose) return hogline::run_pose(pose_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
+  if (*faults) return hogline::run_faults(faults_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }
