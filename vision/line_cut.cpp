@@ -15,6 +15,7 @@ constexpr double wide_px = 6.0;           // from here on its two edges are seen
 constexpr float least_contrast = 0.012F;  // of full light
 constexpr float unlike_sides = 0.6F;      // of the contrast
 constexpr float unlike_ice = 0.35F;       // of the ice's own light
+constexpr float glaring = 0.95F;          // of full light, in every colour: a lamp's reflection hides paint
 
 // The paint's colour against the ice's, and how strong it is as a rule.
 struct Paint {
@@ -106,7 +107,7 @@ std::vector<LineLook> looks_of(const std::vector<LineCut>& cuts) {
   }
   ice /= static_cast<float>(std::max(lines, 1));
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const bool is_ice = (cuts[i].ice - ice).norm() < unlike_ice * ice.norm();
+    const bool is_ice = (cuts[i].ice - ice).norm() < unlike_ice * ice.norm() && cuts[i].ice.minCoeff() < glaring;
     if (looks[i] == LineLook::bare && !is_ice) looks[i] = LineLook::hidden;
   }
   return looks;

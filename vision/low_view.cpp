@@ -126,7 +126,7 @@ Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& poi
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
   if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3 && image.type() != CV_8UC1) return "the picture is not 8 bits a channel, colour or grey";
+  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
   if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
     return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
            std::to_string(setup.intrinsics.width_px) + "x" + std::to_string(setup.intrinsics.height_px);

@@ -13,7 +13,7 @@ class IceLight {
   /// Pictures are read from row `top` (even) downwards.
   explicit IceLight(int top) : top_(top) {}
 
-  /// `image` is CV_8UC3 or CV_8UC1, with two rows below `top` at least. Its white is each colour's upper quartile: most
+  /// `image` is CV_8UC3, with two rows below `top` at least. Its white is each colour's upper quartile: most
   /// of what lies below the horizon is ice.
   void read(const cv::Mat& image);
 

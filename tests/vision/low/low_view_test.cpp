@@ -235,7 +235,7 @@ TEST(low_view, refuses_what_is_no_picture_of_the_sheet) {
       {"white", cv::Mat(rows, columns, CV_8UC3, cv::Scalar(255, 255, 255))},
       {"noise", noise},
       {"a wall", wall},
-      {"grey and black", cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))},
+      {"grey", cv::Mat(rows, columns, CV_8UC1, cv::Scalar(150))},
       {"of another size", cv::Mat(480, 640, CV_8UC3, cv::Scalar(200, 200, 200))},
       {"of another type", cv::Mat(rows, columns, CV_32FC1, cv::Scalar(0.5))},
   };
