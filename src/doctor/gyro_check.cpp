@@ -54,18 +54,12 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Finding examine_gyro(const hw::Dsp3000Config&, Site& site) {
+Finding examine_gyro(Site& site) {
   Finding finding;
   finding.device = "gyro";
   finding.line = site.gyro_line();
-  hw::Gyro* gyro = site.gyro();
-  if (gyro == nullptr) {
-    finding.found = "not examined";
-    finding.note("the rig does not say on which serial port it is", "name it in the rig's gyro section");
-    return finding;
-  }
-  const Heard heard = listen(*gyro, site);
-  const auto error = gyro->state().error;
+  const Heard heard = listen(site.gyro(), site);
+  const auto error = site.gyro().state().error;
   if (heard.readings == 0) {
     finding.found = "no reading";
     const bool faulty = error && error->kind == hw::DeviceErrorKind::device_fault;
