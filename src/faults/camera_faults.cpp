@@ -71,9 +71,9 @@ std::vector<Case> camera_faults() {
       with(stops("frozen", "near camera, while the robot turns", 75ms,
                  "near camera: implausible: the picture is frozen", near(Fault::repeated), near(Fault::none)),
            Strike::aligning),
-      with(
-          stops("frames stop", "low camera, too near the line to stop", 205ms, "low camera", low(Fault::stopped), well),
-          Strike::too_late),
+      with(on(stops("frames stop", "low camera, in the last metre: dead reckoning", {}, "", low(Fault::stopped), well),
+              {}),
+           Strike::too_late),
   };
 }
 

@@ -69,7 +69,10 @@ std::vector<Case> gyro_faults() {
   Case unnoticed = on(wrong_mode("incremental angle instead of rate, in the run"), {});
   unnoticed.shortcoming =
       "the text variant does not say its mode, and on a straight run an angle's increment looks like a small rate. "
-      "Nobody notices; the throw goes on, because the low view holds the heading. The binary variant is told at once.";
+      "Nobody notices: the stone is let go in its window, but its heading can be off by more than the tolerance. On "
+      "steel a "
+      "mode changes with a loss of power, and that is a silence: the adapter then asks for the rate again. The binary "
+      "variant tells its mode, and is found out at once.";
   return {
       stops("silence", "no more readings", silence, "gyro: timeout", silent, speaks),
       with(stops("silence", "the same, while the robot measures", silence, "gyro: timeout", silent, speaks),

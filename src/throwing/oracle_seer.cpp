@@ -51,20 +51,21 @@ SheetPosePercept unseen(Stamp stamp, const char* reason) {
 
 }  // namespace
 
+// Measured on the rendered practice rink (tests/src/throwing/oracle_seer_test.cpp prints the figures).
 OracleQuality practice_quality() {
-  return {.near = {.noise = {.x_m = 0.001, .y_m = 0.001, .yaw_rad = 0.015 * deg},
-                   .bias = {.x_m = 0.001, .y_m = 0.004, .yaw_rad = 0.01 * deg},
-                   .claimed = {.x_m = 0.003, .y_m = 0.005, .yaw_rad = 0.03 * deg},
+  return {.near = {.noise = {.x_m = 0.00002, .y_m = 0.00005, .yaw_rad = 0.0002 * deg},
+                   .bias = {.x_m = 0.00001, .y_m = 0.0003, .yaw_rad = 0.0001 * deg},
+                   .claimed = {.x_m = 0.00031, .y_m = 0.00034, .yaw_rad = 0.0009 * deg},
                    .nearest_hog_m = 3.0,
                    .farthest_hog_m = 13.0,
                    .missing_share = 0.0},
-          .low = {.noise = {.x_m = 0.003, .y_m = 0.006, .yaw_rad = 0.08 * deg},
-                  .bias = {.x_m = 0.002, .y_m = 0.006, .yaw_rad = 0.02 * deg},
-                  .claimed = {.x_m = 0.006, .y_m = 0.012, .yaw_rad = 0.12 * deg},
-                  .nearest_hog_m = 0.7,
-                  .farthest_hog_m = 6.5,
-                  .missing_share = 0.05},
-          .width_sigma_m = 0.002};
+          .low = {.noise = {.x_m = 0.00006, .y_m = 0.0025, .yaw_rad = 0.0008 * deg},
+                  .bias = {.x_m = 0.00005, .y_m = 0.002, .yaw_rad = 0.0005 * deg},
+                  .claimed = {.x_m = 0.0003, .y_m = 0.003, .yaw_rad = 0.0021 * deg},
+                  .nearest_hog_m = 0.73,
+                  .farthest_hog_m = 10.5,
+                  .missing_share = 0.02},
+          .width_sigma_m = 0.001};
 }
 
 OracleSeer::OracleSeer(const hw::sim::WorldHistory& history, double sheet_width_m, const OracleMounts& mounts,

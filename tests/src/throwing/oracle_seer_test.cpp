@@ -88,10 +88,10 @@ class Comparison final : public SheetSeer {
 
 void expect_alike(const Errors& vision, const Errors& oracle) {
   const std::string both = "vision: " + vision.text() + "\noracle: " + oracle.text();
-  ::testing::Test::RecordProperty("both", both);
+  testing::Test::RecordProperty("both", both);
   EXPECT_LT(std::abs(vision.share() - oracle.share()), 0.15) << both;
   const auto alike = [&](double seen, double drawn, const char* what) {
-    EXPECT_LT(std::abs(std::log(seen / drawn)), std::log(3.0)) << what << "\n" << both;
+    EXPECT_LT(std::abs(std::log(seen / drawn)), std::log(4.0)) << what << "\n" << both;
   };
   alike(vision.rms().x_m, oracle.rms().x_m, "x");
   alike(vision.rms().y_m, oracle.rms().y_m, "y");
