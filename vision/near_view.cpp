@@ -32,6 +32,16 @@ struct Hypothesis {
   std::string origin;
 };
 
+// The back line or the hog line in plain sight, and little of it there: a house seen from its other side or from beside
+// it, where rings, tee line and centre line look the same.
+bool a_line_is_missing(const SheetFitResult& result) {
+  return std::ranges::any_of(result.features, [](const FittedFeature& f) {
+    const int in_sight = f.sites_tried - f.sites_hidden;
+    const bool plain = in_sight >= 20 && in_sight >= 0.5 * f.sites_tried;
+    return (f.name == "back_line" || f.name == "hog_line") && plain && f.sites_used < 0.3 * in_sight;
+  });
+}
+
 template <typename T>
 std::vector<T> first(const std::vector<T>& all) {
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_candidates))};
@@ -74,20 +84,21 @@ SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSk
   const LineClasses classes = classify(lines, impl_->view, impl_->range);
   if (sketch != nullptr) draw_candidates(classes, impl_->view, *sketch);
 
-  std::vector<Hypothesis> hypotheses;
-  if (const auto h = impl_->by_four_points(image, points, classes, sketch)) hypotheses.push_back(*h);
-  if (const auto h = impl_->by_ring_vote(points, classes)) hypotheses.push_back(*h);
   nothing.reason = "no house and lines found that fit a robot before its house";
-
-  for (const Hypothesis& hypothesis : hypotheses) {
+  for (const bool by_lines : {true, false}) {
+    const auto hypothesis =
+        by_lines ? impl_->by_four_points(image, points, classes, sketch) : impl_->by_ring_vote(points, classes);
+    if (!hypothesis) continue;
     SheetFitStart start;
-    start.eMc = hypothesis.eMc;
-    start.search_px = hypothesis.search_px;
+    start.eMc = hypothesis->eMc;
+    start.search_px = hypothesis->search_px;
+    start.may_be_hidden = true;
+    start.paint_depth_sigma_m = impl_->setup.paint_depth_sigma_m;
     const SheetFitResult& result = impl_->fit.fit(image, start);
     nothing.reason = result.ok ? impl_->doubt(result) : result.reason;
     if (!nothing.reason.empty()) continue;
     if (sketch != nullptr) draw_model(result.eMc, impl_->setup, result.sheet_width_m, *sketch);
-    return impl_->percept(result, hypothesis.origin, stamp);
+    return impl_->percept(result, hypothesis->origin, stamp);
   }
   return nothing;
 }
@@ -170,11 +181,12 @@ std::string NearView::Impl::doubt(const SheetFitResult& result) const {
   int lines_used = 0;
   for (const FittedFeature& f : result.features) {
     const bool ring = f.name.ends_with("_ring");
-    (ring ? rings_tried : lines_tried) += f.sites_tried;
+    (ring ? rings_tried : lines_tried) += f.sites_tried - f.sites_hidden;
     (ring ? rings_used : lines_used) += f.sites_used;
   }
   if (rings_used < 60 || rings_used < 0.4 * rings_tried) return "the rings are not where the pose puts them";
   if (lines_used < 40 || lines_used < 0.4 * lines_tried) return "the lines are not where the pose puts them";
+  if (a_line_is_missing(result)) return "a line is missing where the pose puts it";
   return {};
 }
 

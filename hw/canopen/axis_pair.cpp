@@ -56,7 +56,7 @@ void AxisPair::listen(Stamp now) {
 void AxisPair::watch_own_rhythm(Stamp now) {
   const bool moving = activity_ == Activity::enabling || activity_ == Activity::enabled;
   if (!moving || !last_step_ || now - *last_step_ <= config_.timing.command_age_limit) return;
-  fail(DeviceErrorKind::timeout, "drive", late("the control loop did not run", now - *last_step_), now);
+  fail(DeviceErrorKind::timeout, config_.name, late("the control loop did not run", now - *last_step_), now);
 }
 
 void AxisPair::receive(Stamp now) {

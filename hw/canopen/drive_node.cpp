@@ -11,8 +11,9 @@
 namespace hogline::hw {
 namespace {
 
-// One TPDO1 a period of time is right. A doubled frame now and then is forgiven: this much of the surplus is forgotten
-// each period, and at this surplus somebody else sends it too.
+// One TPDO1 a period of time is right. A doubled frame now and then is forgiven: this much of a surplus is forgotten
+// each period, and at this surplus somebody else sends it too. Frames that were missing may come late and all at once,
+// as far as the feedback's timeout allows.
 constexpr double forgotten_surplus = 0.1;
 constexpr double most_surplus = 4.0;
 
@@ -265,7 +266,9 @@ void DriveNode::supervise_communication(Stamp now) {
 void DriveNode::supervise_feedback_rate(Stamp now) {
   const double periods = seconds(now - rate_since_) / seconds(timing_.control_period);
   rate_since_ = now;
-  surplus_ = std::max(surplus_ - periods * (1.0 + forgotten_surplus), 0.0);
+  const double most_missing = seconds(timing_.feedback_timeout) / seconds(timing_.control_period);
+  surplus_ = std::max(surplus_ - periods, -most_missing);
+  if (surplus_ > 0.0) surplus_ = std::max(surplus_ - periods * forgotten_surplus, 0.0);
   if (surplus_ < most_surplus) return;
   fail(DeviceErrorKind::protocol, "sends twice what it should: a second SYNC, or two nodes with this id", now);
 }

@@ -132,7 +132,7 @@ class DriveNode {
   std::int8_t mode_ = 0;
   std::uint16_t error_code_ = 0;
   Stamp rate_since_{};
-  double surplus_ = 0.0;  ///< TPDO1s beyond one a period, leaking
+  double surplus_ = 0.0;  ///< TPDO1s beyond one a period, or missing from it
 
   std::optional<DeviceError> error_;
 };

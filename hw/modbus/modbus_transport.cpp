@@ -26,17 +26,18 @@ ModbusFault disconnected(const char* doing, int error) {
   return {DeviceErrorKind::disconnected, std::string(doing) + ": " + modbus_strerror(error)};
 }
 
-// Waits until the descriptor is ready or the deadline has passed. False then.
+// Waits until the descriptor is ready or the deadline has passed. False then. Looks once even when the deadline has
+// passed already: what has arrived counts, however late this thread was to look.
 bool wait_for(int descriptor, short event, std::chrono::steady_clock::time_point deadline) {
   pollfd waiting{descriptor, event, 0};
   for (;;) {
-    const auto left = deadline - std::chrono::steady_clock::now();
-    if (left <= left.zero()) return false;
+    const auto left = std::max(deadline - std::chrono::steady_clock::now(), std::chrono::steady_clock::duration{});
     const timespec span{static_cast<time_t>(left / std::chrono::seconds(1)),
                         static_cast<long>((left % std::chrono::seconds(1)).count())};
     const int ready = ppoll(&waiting, 1, &span, nullptr);
     if (ready > 0) return true;  // also for a line that is gone: reading or writing says so
-    if (ready < 0 && errno != EINTR) return true;
+    if (ready == 0) return false;
+    if (errno != EINTR) return true;
   }
 }
 

@@ -63,6 +63,7 @@ std::optional<vision::CameraSetup> read_camera(const json& rig, const std::strin
                  .sideline = read_sideline(rig.at("sheet").at("sideline").get<std::string>())};
   setup.ice = {.paint_depth_m = rig.at("ice").at("paint_depth_m"),
                .refractive_index = rig.at("ice").at("refractive_index")};
+  setup.paint_depth_sigma_m = rig.at("ice").value("paint_depth_sigma_m", 0.0);
   return setup;
 }
 

@@ -25,24 +25,35 @@ struct Look {
   std::uint64_t last_id = 0;
 };
 
-// A recording may have fewer pictures: its end is no fault.
-Look look(hw::CheckedCamera& camera, const hw::files::RecordedCamera* recording, Site& site) {
+void note(const hw::Frame& frame, Stamp now, Look& seen) {
+  if (seen.ages_s.empty()) {
+    seen.first = frame.stamp;
+    seen.first_id = frame.id;
+  }
+  seen.last = frame.stamp;
+  seen.last_id = frame.id;
+  seen.ages_s.push_back(seconds(now - frame.stamp));
+}
+
+Look look(hw::CheckedCamera& camera, Site& site) {
   Look seen;
   const Stamp end = site.now() + longest;
-  while (site.now() < end && seen.ages_s.size() < enough && !camera.error() &&
-         !(recording && !recording->next_stamp())) {
-    if (const auto frame = camera.latest(site.now())) {
-      if (seen.ages_s.empty()) {
-        seen.first = frame->stamp;
-        seen.first_id = frame->id;
-      }
-      seen.last = frame->stamp;
-      seen.last_id = frame->id;
-      seen.ages_s.push_back(seconds(site.now() - frame->stamp));
-    }
+  while (site.now() < end && seen.ages_s.size() < enough && !camera.error()) {
+    const Stamp now = site.now();
+    if (const auto frame = camera.latest(now)) note(*frame, now, seen);
     site.pass(tick);
   }
   std::ranges::sort(seen.ages_s);
+  return seen;
+}
+
+// A recording is looked at in its own time: how fast this machine decodes says nothing about it.
+Look look(hw::CheckedCamera& camera, const hw::files::RecordedCamera& recording) {
+  Look seen;
+  for (auto now = recording.next_stamp(); now && seen.ages_s.size() < enough && !camera.error();
+       now = recording.next_stamp()) {
+    if (const auto frame = camera.latest(*now)) note(*frame, *now, seen);
+  }
   return seen;
 }
 
@@ -88,7 +99,7 @@ Finding examine_camera(const std::string& name, const config::CameraSource& sour
                                       .silence_limit = source.silence_limit,
                                       .first_frame_limit = longest});
   const auto* recording = dynamic_cast<const hw::files::RecordedCamera*>(camera);
-  const Look seen = look(checked, recording, site);
+  const Look seen = recording != nullptr ? look(checked, *recording) : look(checked, site);
   const auto& verdict = checked.verdict();
   finding.found = verdict ? "picture with " + verdict->describe() : "no picture";
   if (verdict && verdict->fault) finding.found = verdict->describe();

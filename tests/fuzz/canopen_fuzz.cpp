@@ -3,10 +3,10 @@
 #include <string>
 
 #include "hw/canopen/cia402.hpp"
+#include "hw/canopen/drive_pdos.hpp"
 #include "hw/canopen/emergency.hpp"
 #include "hw/canopen/nmt.hpp"
 #include "hw/canopen/sdo_client.hpp"
-#include "hw/canopen/wheel_pdos.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace hogline::fuzz {
@@ -44,10 +44,10 @@ void decode(const hw::CanFrame& frame) {
     require(heartbeat->node >= 1 && heartbeat->node <= 127, "a heartbeat's node is 1..127");
     require(*hw::to_string(heartbeat->state) != '\0', "a state has a name");
   }
-  if (const auto status = hw::decode_wheel_status(frame)) {
+  if (const auto status = hw::decode_status(frame)) {
     require(*hw::to_string(hw::decode_statusword(status->statusword)) != '\0', "a drive state has a name");
   }
-  static_cast<void>(hw::decode_wheel_position(frame));
+  static_cast<void>(hw::decode_position(frame));
 }
 
 void take_all(hw::SdoClient& client) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -35,6 +35,12 @@ std::vector<std::uint8_t> sorted_blocks(const cv::Mat& rows) {
   return levels;
 }
 
+// "0.4 %".
+std::string percent(double share) {
+  const long tenths = std::lround(1000.0 * share);
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " %";
+}
+
 double share_above(const cv::Mat& rows, double level) {
   const cv::Mat bright = rows.reshape(1) >= level * full_scale;
   return static_cast<double>(cv::countNonZero(bright)) / static_cast<double>(bright.total());
@@ -55,19 +61,17 @@ const char* to_string(PictureFault fault) {
 }
 
 std::string PictureVerdict::describe() const {
-  char text[120];
-  if (!fault) {
-    std::snprintf(text, sizeof(text), "levels from %.0f %% to %.0f %% of full scale, %.1f %% saturated",
-                  100.0 * dark_block, 100.0 * bright_block, 100.0 * saturated_share);
-  } else if (*fault == PictureFault::black) {
-    std::snprintf(text, sizeof(text), "black: the whole picture lies between %.1f %% and %.1f %% of full scale",
-                  100.0 * dark_block, 100.0 * bright_block);
-  } else if (*fault == PictureFault::saturated) {
-    std::snprintf(text, sizeof(text), "saturated: %.0f %% of the picture is at full scale", 100.0 * saturated_share);
-  } else {
-    std::snprintf(text, sizeof(text), "frozen: byte for byte the picture before");
+  const std::string range = percent(dark_block) + " to " + percent(bright_block) + " of full scale";
+  if (!fault) return "levels from " + range + ", " + percent(saturated_share) + " saturated";
+  switch (*fault) {
+    case PictureFault::black:
+      return "black: the whole picture lies at " + range;
+    case PictureFault::saturated:
+      return "saturated: " + percent(saturated_share) + " of the picture is at full scale";
+    case PictureFault::frozen:
+      break;
   }
-  return text;
+  return "frozen: byte for byte the picture before";
 }
 
 PictureVerdict PictureCheck::check(const cv::Mat& picture) {

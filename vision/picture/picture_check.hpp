@@ -31,11 +31,11 @@ struct PictureVerdict {
   double bright_block = 0.0;  ///< level under which 98 % of the blocks lie
   double saturated_share = 0.0;
 
-  /// What was seen, for a person: "black: the whole picture lies between 0.4 % and 0.5 % of full scale".
+  /// What was seen, for a person: "black: the whole picture lies at 0.4 % to 0.5 % of full scale".
   std::string describe() const;
 };
 
-/// Looks at one row in eight, so that a 2 megapixel picture takes a fraction of a millisecond. Remembers those rows of
+/// Looks at one row in eight, so that a 2 megapixel picture takes less than a millisecond. Remembers those rows of
 /// the picture before.
 class PictureCheck {
  public:

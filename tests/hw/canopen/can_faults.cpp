@@ -54,7 +54,7 @@ const std::vector<CanFault> node_faults{
        b.on_frame = nullptr;
        quiet(b);
      },
-     45ms, Kind::protocol, "two nodes with this id"},
+     60ms, Kind::protocol, "two nodes with this id"},
 };
 
 // ---- drives ----
@@ -141,7 +141,7 @@ const std::vector<CanFault> bus_faults{
     {"every second frame is lost", [](DriveBench& b) { b.bus.set_faults(0.5, 0.0, 0.0); },
      [](DriveBench& b) { b.bus.set_faults(0.0, 0.0, 0.0); }, 300ms, Kind::timeout, ""},
     {"every frame arrives twice", [](DriveBench& b) { b.bus.set_faults(0.0, 1.0, 0.0); },
-     [](DriveBench& b) { b.bus.set_faults(0.0, 0.0, 0.0); }, 45ms, Kind::protocol, "second SYNC"},
+     [](DriveBench& b) { b.bus.set_faults(0.0, 0.0, 0.0); }, 60ms, Kind::protocol, "second SYNC"},
     {"SYNC lost", [](DriveBench& b) { b.bus.set_filter([](const CanFrame& frame) { return frame.id != 0x080; }); },
      [](DriveBench& b) { b.bus.set_filter({}); }, 35ms, Kind::timeout, "feedback"},
     {"SYNC late by seven periods",

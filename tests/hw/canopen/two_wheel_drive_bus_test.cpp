@@ -141,6 +141,27 @@ TEST(TwoWheelDriveBus, AReorderedFrameNowAndThenIsSurvived) {
   EXPECT_NEAR(bench.wheel_radps(0), 10.0 + 5.0 * std::sin(5.0), 0.2);
 }
 
+TEST(TwoWheelDriveBus, FeedbackThatComesLateAndAllAtOnceIsSurvived) {
+  DriveBench bench;
+  ASSERT_TRUE(bench.get_running(10.0));
+  // An adapter that hands its frames over every 20 ms: 4 at a time.
+  std::vector<CanFrame> held;
+  bench.bus.set_filter([&held, open = false, &bench](const CanFrame& frame) mutable {
+    open = (bench.now() - Stamp{}) % 20ms == 0ms;
+    const bool feedback = frame.id == 0x181 || frame.id == 0x281;
+    if (feedback && !open) held.push_back(frame);
+    return !feedback || open;
+  });
+  bench.on_tick = [&] {
+    if ((bench.now() - Stamp{}) % 20ms != 0ms) return;
+    for (const CanFrame& frame : held) bench.stray.send(frame);
+    held.clear();
+  };
+  bench.run(2s);
+  const DeviceError error = bench.drive.state().error.value_or(DeviceError{});
+  EXPECT_EQ(error.what.find("sends twice"), std::string::npos) << error.what;
+}
+
 TEST(TwoWheelDriveBus, ASyncThatIsLateByTwoPeriodsIsSurvived) {
   DriveBench bench;
   ASSERT_TRUE(bench.get_running(10.0));

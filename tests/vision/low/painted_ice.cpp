@@ -21,9 +21,10 @@ struct Footprint {
     const double hi = std::min(at[axis] + half[axis], end);
     return std::clamp((hi - lo) / (2.0 * half[axis]), 0.0, 1.0);
   }
-  double share_of_disc(double radius) const {
-    const double r = at.norm();
-    const double reach = r > 1e-9 ? (half.cwiseProduct(at.cwiseAbs()) / r).sum() : half.norm();
+  double share_of_disc(const Eigen::Vector2d& tee, double radius) const {
+    const Eigen::Vector2d from_tee = at - tee;
+    const double r = from_tee.norm();
+    const double reach = r > 1e-9 ? (half.cwiseProduct(from_tee.cwiseAbs()) / r).sum() : half.norm();
     return std::clamp((radius - r + reach) / (2.0 * reach), 0.0, 1.0);
   }
 };
@@ -32,14 +33,18 @@ void lay(Colour& ground, const Colour& colour, double share) {
   ground += static_cast<float>(share) * (colour - ground);
 }
 
+void lay_house(Colour& c, const Footprint& p, const Eigen::Vector2d& tee) {
+  lay(c, blue, p.share_of_disc(tee, rules::outer_ring_radius_m));
+  lay(c, white, p.share_of_disc(tee, rules::middle_ring_radius_m));
+  lay(c, red, p.share_of_disc(tee, rules::inner_ring_radius_m));
+  lay(c, white, p.share_of_disc(tee, rules::button_radius_m));
+}
+
 Colour light_of(const PaintedSheet& sheet, const Footprint& p) {
   Colour c = white;
-  if (sheet.rings) {
-    lay(c, blue, p.share_of_disc(rules::outer_ring_radius_m));
-    lay(c, white, p.share_of_disc(rules::middle_ring_radius_m));
-    lay(c, red, p.share_of_disc(rules::inner_ring_radius_m));
-    lay(c, white, p.share_of_disc(rules::button_radius_m));
-  }
+  const Eigen::Vector2d beyond(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
+  if (sheet.rings) lay_house(c, p, Eigen::Vector2d::Zero());
+  if (sheet.house_beyond) lay_house(c, p, beyond);
   for (const CrossLine& line : cross_lines()) {
     const bool hog = line.width_m() > 0.05;
     if (hog && !sheet.hog_line) continue;
