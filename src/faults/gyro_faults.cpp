@@ -32,6 +32,8 @@ Case with(Case c, Strike strike) {
 Case on(Case c, Duration lasts) {
   c.expect = Expect::goes_on;
   c.lasts = lasts;
+  c.deadline = {};
+  c.says.clear();
   return c;
 }
 
@@ -99,9 +101,9 @@ std::vector<Case> gyro_faults() {
       unnoticed,
       over_words(wrong_mode("incremental angle instead of rate, binary variant")),
       on(stops(
-             "burst after a stall", "held for 20 ms, then all at once", {}, "", [](Site& s) { gyro(s).set_held(true); },
+             "burst after a stall", "held for 10 ms, then all at once", {}, "", [](Site& s) { gyro(s).set_held(true); },
              [](Site& s) { gyro(s).set_held(false); }),
-         20ms),
+         10ms),
       stops(
           "burst after a long stall", "held for 0.3 s, then all at once", silence, "gyro: timeout",
           [](Site& s) { gyro(s).set_held(true); }, [](Site& s) { gyro(s).set_held(false); }),

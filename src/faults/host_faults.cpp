@@ -48,8 +48,10 @@ std::vector<Case> host_faults() {
       [](Site& s) { s.loop_dead = true; }, [](Site& s) { s.loop_dead = false; });
   return {
       on(stops("control thread late by 4 ms", "one period", {}, "", [](Site& s) { s.loop_late = 4ms; }, {})),
-      stops("control thread late by 30 ms", "one period", 40ms, "", late, nothing),
-      with(stops("control thread late by 30 ms", "one period, while the robot turns", 40ms, "", late, nothing),
+      stops("control thread late by 30 ms", "one period", 40ms, "drive: timeout: the control loop did not run", late,
+            nothing),
+      with(stops("control thread late by 30 ms", "one period, while the robot turns", 40ms,
+                 "drive: timeout: the control loop did not run", late, nothing),
            Strike::aligning),
       killed,
       stops(
