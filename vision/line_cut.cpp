@@ -13,6 +13,7 @@ constexpr int tangent_px = 3;             // each look is a mean over so many to
 constexpr double blurred_px = 2.0;        // what lies so close to an edge may be of both sides
 constexpr double wide_px = 6.0;           // from here on its two edges are seen each for itself
 constexpr float least_contrast = 0.012F;  // of full light
+constexpr float lighter = 0.4F;           // of the contrast, in any colour
 constexpr float unlike_sides = 0.6F;      // of the contrast
 constexpr float unlike_ice = 0.35F;       // of the ice's own light
 constexpr float glaring = 0.95F;          // of full light, in every colour: a lamp's reflection hides paint
@@ -96,6 +97,8 @@ std::vector<LineLook> looks_of(const std::vector<LineCut>& cuts) {
   if (cuts.empty()) return {};
   const Paint paint = paint_of(cuts);
   if (paint.contrast < least_contrast) return {};
+  // Ice is lighter than any paint: what is lighter than its sides is the ice between two logos.
+  if (paint.direction.maxCoeff() > lighter) return std::vector<LineLook>(cuts.size(), LineLook::hidden);
   std::vector<LineLook> looks;
   Light ice = Light::Zero();
   int lines = 0;

@@ -1,6 +1,7 @@
 #include "vision/low_view.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/detect/edge_points.hpp"
@@ -24,7 +25,7 @@ constexpr double max_yaw_rad = 0.262;
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
-constexpr double search_px = 10.0;
+constexpr std::array<double, 2> search_px{10.0, 20.0};  // the wider one where the first was not believed
 constexpr int fewest_sideline_points = 40;
 constexpr double most_sigma_m = 0.3;  // far off, without sidelines, the body's rocking leaves as much
 constexpr double least_lean_sigma_rad = 0.0006;
@@ -62,7 +63,8 @@ struct LowView::Impl {
   Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
-  SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
+  SheetPosePercept refine(const cv::Mat& image, const Start& start, double within_px, Stamp stamp,
+                          LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
   std::string doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
@@ -103,11 +105,13 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen =
-        impl_->refine(image, impl_->levelled(shapes[i], points, prediction.sheet_width_m), stamp, sketch);
-    if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
-    if (seen.ok) return seen;
-    if (i == 0) nothing.reason = seen.reason;
+    const Start start = impl_->levelled(shapes[i], points, prediction.sheet_width_m);
+    for (const double within_px : search_px) {
+      const SheetPosePercept seen = impl_->refine(image, start, within_px, stamp, sketch);
+      if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
+      if (seen.ok) return seen;
+      if (i == 0) nothing.reason = seen.reason;
+    }
   }
   return nothing;
 }
@@ -156,12 +160,13 @@ HKnowledge LowView::Impl::knowledge(const LowViewPrediction& prediction) const {
   return known;
 }
 
-SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch) {
+SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, double within_px, Stamp stamp,
+                                       LowViewSketch* sketch) {
   SheetFitStart fit_start;
   Mount mount = setup.mount;
   mount.pitch_rad += start.lean_rad;
   fit_start.eMc = eMb(start.body) * bMc(mount);
-  fit_start.search_px = search_px;
+  fit_start.search_px = within_px;
   fit_start.sheet_width_m = start.width_m;
   fit_start.most_sigma_m = most_sigma_m;
   fit_start.pitch_offset_rad = start.lean_rad;

@@ -62,6 +62,27 @@ Colour light_of(const PaintedSheet& sheet, const Footprint& p) {
   return c;
 }
 
+constexpr int levels = 1 << 16;
+
+// By the level of linear light.
+std::vector<std::uint8_t> response_of(double gamma) {
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i <= levels; ++i) {
+    bytes.push_back(
+        static_cast<std::uint8_t>(std::lround(255.0 * std::pow(i / static_cast<double>(levels), 1.0 / gamma))));
+  }
+  return bytes;
+}
+
+// A stock of random numbers to draw from.
+std::vector<float> noise_of(const PaintedSheet& sheet) {
+  std::mt19937_64 random(sheet.seed);
+  std::normal_distribution<float> normal(0.0F, static_cast<float>(sheet.noise));
+  std::vector<float> noise(10007);
+  for (float& n : noise) n = normal(random);
+  return noise;
+}
+
 }  // namespace
 
 CameraSetup low_camera() {
@@ -88,8 +109,9 @@ cv::Mat paint(const CameraSetup& setup, const PaintedSheet& sheet) {
   const int width = setup.intrinsics.width_px;
   const int height = setup.intrinsics.height_px;
   std::vector<std::optional<Eigen::Vector2d>> above(static_cast<std::size_t>(width));
+  const std::vector<std::uint8_t> response = response_of(setup.gamma);
+  const std::vector<float> noise = noise_of(sheet);
   std::mt19937_64 random(sheet.seed);
-  std::normal_distribution<float> noise(0.0F, static_cast<float>(sheet.noise));
   cv::Mat image(height, width, CV_8UC3);
   for (int v = 0; v < height; ++v) {
     std::optional<Eigen::Vector2d> before;
@@ -104,9 +126,10 @@ cv::Mat paint(const CameraSetup& setup, const PaintedSheet& sheet) {
       before = at;
       up = at;
       cv::Vec3b& pixel = image.at<cv::Vec3b>(v, u);
-      for (int k = 0; k < 3; ++k) {
-        const double linear = std::clamp(static_cast<double>(light[k] + noise(random)), 0.0, 1.0);
-        pixel[k] = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(linear, 1.0 / setup.gamma)));
+      const std::size_t first = random() % (noise.size() - 2);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float linear = std::clamp(light[static_cast<int>(k)] + noise[first + k], 0.0F, 1.0F);
+        pixel[static_cast<int>(k)] = response[static_cast<std::size_t>(linear * static_cast<float>(levels))];
       }
     }
   }
