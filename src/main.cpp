@@ -49,7 +49,8 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
-      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return pose;
 }
 
@@ -80,14 +81,19 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
       "Example:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
       "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
-      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration.");
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return command;
 }
 
 CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
   auto* demo = app.add_subcommand("demo", "one whole throw on the simulated rink, with pictures and a report");
   add_shot(demo, options);
-  demo->footer("Example:\n  hogline demo --out out/demo");
+  demo->footer(
+      "Example:\n"
+      "  hogline demo --out out/demo\n"
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk).");
   return demo;
 }
 
@@ -102,8 +108,9 @@ CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
       "  hogline doctor --rig rig.yaml\n"
       "  hogline doctor --rig config/rigs/practice.yaml --simulated --json\n"
       "It listens and reads; nothing is switched on and nothing is ordered. A rig whose cameras are all simulated is\n"
-      "examined on the simulated rink. Takes ten to thirty seconds.\n"
-      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration.");
+      "examined on the simulated rink. Takes two to thirty seconds.\n"
+      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return doctor;
 }
 
@@ -115,7 +122,8 @@ CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
       "Examples:\n"
       "  hogline faults --out doc/faults.md\n"
       "  hogline faults --only Gyro\n"
-      "Exit status: 0 all ended as they should, 1 some did not (the page says which).");
+      "Exit status: 0 all ended as they should, 1 some did not (the page says which),\n"
+      "3 something outside failed (a disk).");
   return faults;
 }
 
@@ -152,7 +160,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   prepare_libraries();
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    std::fputs("hogline: the output can not be written: is the disk full?\n", stderr);
+    return ExitStatus::failed;
   } catch (const hogline::config::ConfigError& e) {
     std::fprintf(stderr, "hogline: %s\n", e.what());
     return ExitStatus::wrong_use;

@@ -80,7 +80,7 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.gyro.step(now);
   eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
 
-  note_errors();
+  if (!thrower_.finished()) note_errors();  // afterwards nobody sends set-points, and the drives say so
   command_ = thrower_.step(observe(now), dt);
   apply(command_, now);
 }
