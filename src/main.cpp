@@ -8,6 +8,7 @@
 #include "src/demo_command.hpp"
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
+#include "src/faults_command.hpp"
 #include "src/pose_command.hpp"
 #include "src/throw_command.hpp"
 
@@ -48,7 +49,8 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
-      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return pose;
 }
 
@@ -79,14 +81,19 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
       "Example:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
       "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
-      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration.");
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return command;
 }
 
 CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
   auto* demo = app.add_subcommand("demo", "one whole throw on the simulated rink, with pictures and a report");
   add_shot(demo, options);
-  demo->footer("Example:\n  hogline demo --out out/demo");
+  demo->footer(
+      "Example:\n"
+      "  hogline demo --out out/demo\n"
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk).");
   return demo;
 }
 
@@ -101,9 +108,23 @@ CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
       "  hogline doctor --rig rig.yaml\n"
       "  hogline doctor --rig config/rigs/practice.yaml --simulated --json\n"
       "It listens and reads; nothing is switched on and nothing is ordered. A rig whose cameras are all simulated is\n"
-      "examined on the simulated rink. Takes ten to thirty seconds.\n"
-      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration.");
+      "examined on the simulated rink. Takes two to thirty seconds.\n"
+      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return doctor;
+}
+
+CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
+  auto* faults = app.add_subcommand("faults", "every fault of the table in a whole simulated throw, as a page");
+  faults->add_option("--out", options.out, "the page's file (Markdown); without it stdout");
+  faults->add_option("--only", options.only, "only cases whose group, name or way of injection contains this");
+  faults->footer(
+      "Examples:\n"
+      "  hogline faults --out doc/faults.md\n"
+      "  hogline faults --only Gyro\n"
+      "Exit status: 0 all ended as they should, 1 some did not (the page says which),\n"
+      "3 something outside failed (a disk).");
+  return faults;
 }
 
 int run(int argc, char** argv) {
@@ -119,6 +140,8 @@ int run(int argc, char** argv) {
   const auto* demo = add_demo(app, demo_options);
   hogline::DoctorOptions doctor_options;
   const auto* doctor = add_doctor(app, doctor_options);
+  hogline::FaultsOptions faults_options;
+  const auto* faults = add_faults(app, faults_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -127,6 +150,7 @@ int run(int argc, char** argv) {
   if (*pose) return hogline::run_pose(pose_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
+  if (*faults) return hogline::run_faults(faults_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }
@@ -136,7 +160,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   prepare_libraries();
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    std::fputs("hogline: the output can not be written: is the disk full?\n", stderr);
+    return ExitStatus::failed;
   } catch (const hogline::config::ConfigError& e) {
     std::fprintf(stderr, "hogline: %s\n", e.what());
     return ExitStatus::wrong_use;

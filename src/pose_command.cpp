@@ -79,9 +79,9 @@ void save(const std::string& folder, const std::string& image, const cv::Mat& dr
 }
 
 void check_use(const PoseOptions& options) {
-  if (options.rate_hz && !(*options.rate_hz > 0.0 && *options.rate_hz <= 1000.0)) {
+  if (options.rate_hz && !(*options.rate_hz >= 0.1 && *options.rate_hz <= 1000.0)) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", *options.rate_hz),
-                              "must be above 0, at most 1000 frames a second");
+                              "must be from 0.1 to 1000 frames a second");
   }
 }
 

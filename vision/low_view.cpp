@@ -208,6 +208,8 @@ std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& star
     }
   }
   if (others < 12) return "nothing but the hog line is where the pose puts it";
+  // Where the centre line is not there either, hog line and sidelines must be there in full.
+  if (result.sites_used < 0.5 * result.sites_tried) return "less than half of the paint is where the pose puts it";
   return {};
 }
 

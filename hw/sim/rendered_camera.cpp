@@ -13,6 +13,7 @@ namespace {
 
 constexpr Duration late_by = std::chrono::milliseconds(120);
 constexpr Duration back_by = std::chrono::milliseconds(100);
+constexpr Duration ahead_by = std::chrono::milliseconds(200);
 constexpr double glare_level = 4.0;      // of full scale
 constexpr double covered_level = 0.004;  // of full scale: what leaks in when the head is folded away
 
@@ -99,6 +100,7 @@ std::optional<Frame> RenderedCamera::latest(Stamp now) {
   if (fault_ == Fault::repeated && last_) return Frame{last_->bgr.clone(), stamp_of(*id), *id};
   Frame frame{take(*id, stamp_of(*id)), stamp_of(*id), *id};
   if (fault_ == Fault::time_back) frame.stamp -= back_by;
+  if (fault_ == Fault::ahead) frame.stamp += ahead_by;
   last_ = Frame{frame.bgr, frame.stamp, frame.id};
   return frame;
 }

@@ -56,6 +56,7 @@ class RenderedCamera final : public Camera {
     repeated,   ///< ... the last picture again and again, with new numbers and stamps
     late,       ///< delivers 0.12 s later than it should
     time_back,  ///< its stamps go back by 0.1 s
+    ahead,      ///< its stamps lie 0.2 s ahead: its clock is another one
   };
   void inject(Fault fault) { fault_ = fault; }
 

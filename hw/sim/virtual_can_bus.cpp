@@ -101,6 +101,7 @@ void VirtualCanBus::transmit(Endpoint& sender, Stamp end) {
     const auto bit = static_cast<std::size_t>(random_() % (std::uint64_t{8} * received.frame.length));
     received.frame.data[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
   }
+  if (tamper_) tamper_(received.frame);
   const int copies = happens(config_.duplication) ? 2 : 1;
   for (int i = 0; i < copies; ++i) put_on_bus(sender, received);
 }

@@ -59,6 +59,8 @@ class VirtualCanBus {
   void set_stuck(bool stuck) { stuck_ = stuck; }
   /// Frames for which `passes` is false vanish; an empty function lets all pass.
   void set_filter(std::function<bool(const CanFrame&)> passes) { filter_ = std::move(passes); }
+  /// Changes frames on their way; an empty function lets all pass as they are.
+  void set_tamper(std::function<void(CanFrame&)> change) { tamper_ = std::move(change); }
   /// Sees every frame that was on the bus, as it was on the bus.
   void set_tap(std::function<void(const StampedCanFrame&)> tap) { tap_ = std::move(tap); }
 
@@ -83,6 +85,7 @@ class VirtualCanBus {
   double reordering_ = 0.0;
   Stamp free_at_{};
   std::function<bool(const CanFrame&)> filter_;
+  std::function<void(CanFrame&)> tamper_;
   std::function<void(const StampedCanFrame&)> tap_;
   std::mt19937_64 random_;
   std::uint64_t lost_ = 0;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "hw/canopen/cia402.hpp"
 #include "hw/canopen/emergency.hpp"
@@ -22,7 +24,8 @@ constexpr Duration tick = 1ms;
 constexpr Duration listening = 400ms;  // several heartbeats of any usual period
 constexpr int tries = 4;
 constexpr std::uint32_t drive_profile = 402;
-constexpr std::uint32_t cyclic_velocity_bit = 1U << 8U;  // of 6502
+constexpr std::uint32_t profile_position = 1U << 0U;  // bits of 6502
+constexpr std::uint32_t cyclic_velocity = 1U << 8U;
 
 constexpr ObjectAddress device_type{0x1000, 0};
 constexpr ObjectAddress error_register{0x1001, 0};
@@ -88,11 +91,49 @@ class Asking {
   BusEar& ear_;
 };
 
-class WheelExamination {
+// What one drive must be.
+struct Expected {
+  std::string name;
+  std::uint8_t node = 0;
+  std::uint32_t vendor_id = 0;
+  std::uint32_t product_code = 0;
+  std::uint32_t modes = 0;  // bits of 6502
+  const char* mode_names = "";
+  double radps_per_unit = 0.0;  // of 606C
+  double standstill_radps = 0.0;
+  Duration sdo_timeout{};
+};
+
+Expected expected(const hw::WheelConfig& w, const hw::TwoWheelDriveConfig& config) {
+  const double turn_radps = 2.0 * std::numbers::pi / w.gear_ratio * w.direction;
+  return {w.name,
+          w.node,
+          w.vendor_id,
+          w.product_code,
+          cyclic_velocity,
+          "cyclic synchronous velocity",
+          turn_radps / w.velocity_units_per_motor_rps,
+          config.plausibility.standstill_radps,
+          config.timing.sdo_timeout};
+}
+
+Expected expected(const hw::HeadAxisConfig& axis, const hw::TwoAxisHeadConfig& config) {
+  const double turn_radps = 2.0 * std::numbers::pi / axis.gearing.gear_ratio * axis.gearing.direction;
+  return {axis.identity.name,
+          axis.identity.node,
+          axis.identity.vendor_id,
+          axis.identity.product_code,
+          profile_position | cyclic_velocity,
+          "profile position and cyclic synchronous velocity",
+          turn_radps / axis.gearing.velocity_units_per_motor_rps,
+          config.plausibility.standstill_radps,
+          config.timing.sdo_timeout};
+}
+
+class NodeExamination {
  public:
-  WheelExamination(const hw::WheelConfig& wheel, const hw::TwoWheelDriveConfig& config, Asking& asking,
-                   const BusEar& ear, Finding& finding)
-      : wheel_(wheel), config_(config), asking_(asking), ear_(ear), finding_(finding) {}
+  NodeExamination(const Expected& expected, Asking& asking, const BusEar& ear, Finding& finding)
+      : expected_(expected), asking_(asking), ear_(ear), finding_(finding) {}
 
   void run(Stamp now) {
     if (!answers()) return;
@@ -106,12 +147,12 @@ class WheelExamination {
 
  private:
   std::optional<std::uint32_t> number(ObjectAddress address) {
-    const SdoResult result = asking_.read(wheel_.node, address, config_.timing.sdo_timeout);
+    const SdoResult result = asking_.read(expected_.node, address, expected_.sdo_timeout);
     return result.outcome == SdoResult::Outcome::ok ? result.value() : std::nullopt;
   }
 
   std::string text(ObjectAddress address) {
-    const SdoResult result = asking_.read(wheel_.node, address, config_.timing.sdo_timeout);
+    const SdoResult result = asking_.read(expected_.node, address, expected_.sdo_timeout);
     if (result.outcome != SdoResult::Outcome::ok) return {};
     return {result.data.begin(), result.data.end()};
   }
@@ -119,12 +160,12 @@ class WheelExamination {
   void tell(const std::string& what) { finding_.found += (finding_.found.empty() ? "" : ", ") + what; }
 
   bool answers() {
-    const SdoResult result = asking_.read(wheel_.node, device_type, config_.timing.sdo_timeout);
+    const SdoResult result = asking_.read(expected_.node, device_type, expected_.sdo_timeout);
     if (result.outcome == SdoResult::Outcome::ok) {
       type_ = result.value();
       return true;
     }
-    const HeardNode& heard = ear_.node(wheel_.node);
+    const HeardNode& heard = ear_.node(expected_.node);
     if (result.outcome != SdoResult::Outcome::timeout) {
       tell("answers, but not as a CANopen device must");
       finding_.wrong(result.describe(), "check that only one device has this node id");
@@ -151,9 +192,9 @@ class WheelExamination {
     if (type_ && (*type_ & 0xFFFFU) != drive_profile) {
       finding_.wrong(fmt::format("is no drive: device type {:08X}", *type_), "check the node ids on the bus");
     }
-    if (vendor == wheel_.vendor_id && product == wheel_.product_code) return;
+    if (vendor == expected_.vendor_id && product == expected_.product_code) return;
     finding_.wrong(fmt::format("wrong identity: vendor {:08X} product {:08X}, the rig says {:08X} and {:08X}",
-                               vendor.value_or(0), product.value_or(0), wheel_.vendor_id, wheel_.product_code),
+                               vendor.value_or(0), product.value_or(0), expected_.vendor_id, expected_.product_code),
                    "check the node ids, or put the new drive's numbers into the rig");
   }
 
@@ -201,26 +242,24 @@ class WheelExamination {
     const auto mode = number(mode_display);
     const auto supported = number(supported_modes);
     if (mode) finding_.values.emplace_back("mode", std::int64_t{static_cast<std::int8_t>(*mode)});
-    if (supported && (*supported & cyclic_velocity_bit) == 0) {
-      finding_.wrong(fmt::format("wrong mode: it can not do cyclic synchronous velocity (6502 is {:08X})", *supported),
-                     "load the firmware that can, or another drive");
+    if (supported && (*supported & expected_.modes) != expected_.modes) {
+      finding_.wrong(fmt::format("wrong mode: it can not do {} (6502 is {:08X})", expected_.mode_names, *supported),
+                     "load the firmware that can, or take another drive");
     }
   }
 
   void motion() {
     const auto raw = number(velocity);
     if (!raw) return;
-    const double motor_rps = static_cast<std::int32_t>(*raw) / wheel_.velocity_units_per_motor_rps;
-    const double wheel_radps = wheel_.direction * motor_rps / wheel_.gear_ratio * 2.0 * std::numbers::pi;
-    finding_.values.emplace_back("wheel_radps", wheel_radps);
-    if (std::abs(wheel_radps) > config_.plausibility.standstill_radps) {
-      finding_.wrong(fmt::format("the wheel turns with {:.2f} rad/s", wheel_radps),
-                     "let the robot stand and ask again");
+    const double axis_radps = static_cast<std::int32_t>(*raw) * expected_.radps_per_unit;
+    finding_.values.emplace_back("axis_radps", axis_radps);
+    if (std::abs(axis_radps) > expected_.standstill_radps) {
+      finding_.wrong(fmt::format("turns with {:.2f} rad/s", axis_radps), "let the robot stand and ask again");
     }
   }
 
   void heartbeat(Stamp now) {
-    const HeardNode& heard = ear_.node(wheel_.node);
+    const HeardNode& heard = ear_.node(expected_.node);
     finding_.values.emplace_back("sdo_latency_ms", 1e3 * asking_.latency_s);
     if (const auto period_s = heard.period_s()) {
       finding_.values.emplace_back("heartbeat_period_ms", 1e3 * *period_s);
@@ -232,8 +271,7 @@ class WheelExamination {
     tell(fmt::format("answers in {:.1f} ms", 1e3 * asking_.latency_s));
   }
 
-  const hw::WheelConfig& wheel_;
-  const hw::TwoWheelDriveConfig& config_;
+  const Expected& expected_;
   Asking& asking_;
   const BusEar& ear_;
   Finding& finding_;
@@ -242,19 +280,27 @@ class WheelExamination {
 
 }  // namespace
 
-std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config, Site& site) {
-  BusEar ear({config.left.node, config.right.node}, config.master_node);
+std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config,
+                                    const std::optional<hw::TwoAxisHeadConfig>& head, Site& site) {
+  std::vector<Expected> nodes{expected(config.left, config), expected(config.right, config)};
+  if (head && site.has_head()) {
+    nodes.push_back(expected(head->pan, *head));
+    nodes.push_back(expected(head->tilt, *head));
+  }
+  std::set<std::uint8_t> ids;
+  for (const Expected& node : nodes) ids.insert(node.node);
+  BusEar ear(std::move(ids), config.master_node);
   Asking asking(site, ear);
   const Stamp begin = site.now();
   asking.listen(listening);
 
   std::vector<Finding> findings(1);
-  for (const hw::WheelConfig* wheel : {&config.left, &config.right}) {
+  for (const Expected& node : nodes) {
     Finding& finding = findings.emplace_back();
-    finding.device = wheel->name;
-    finding.line = fmt::format("{}, node {}", site.can_line(), wheel->node);
+    finding.device = node.name;
+    finding.line = fmt::format("{}, node {}", site.can_line(), node.node);
     if (site.can().up()) {
-      WheelExamination(*wheel, config, asking, ear, finding).run(site.now());
+      NodeExamination(node, asking, ear, finding).run(site.now());
     } else {
       finding.found = "not asked";
       finding.note("can not be asked while the bus is down", "bring the bus up and ask again");

@@ -11,12 +11,12 @@
 namespace hogline::doctor {
 
 std::vector<Finding> examine(const config::ThrowerRig& rig, Site& site) {
-  std::vector<Finding> findings = examine_drives(rig.drive, site);
+  std::vector<Finding> findings = examine_drives(rig.drive, rig.head, site);
 
   ModbusFindings modbus = examine_modbus(rig.gripper, rig.arm, site);
   std::ranges::move(modbus.findings, std::back_inserter(findings));
 
-  findings.push_back(examine_gyro(rig.gyro, site));
+  findings.push_back(examine_gyro(site));
 
   const bool head_covered = modbus.arm_unfolded == false;
   for (const auto& [name, setup, on_the_arm] :

@@ -54,20 +54,19 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Finding examine_gyro(const hw::Dsp3000Config&, Site& site) {
+Finding examine_gyro(Site& site) {
   Finding finding;
   finding.device = "gyro";
   finding.line = site.gyro_line();
-  hw::Gyro* gyro = site.gyro();
-  if (gyro == nullptr) {
-    finding.found = "not examined";
-    finding.note("the rig does not say on which serial port it is", "name it in the rig's gyro section");
-    return finding;
-  }
-  const Heard heard = listen(*gyro, site);
+  const Heard heard = listen(site.gyro(), site);
+  const auto error = site.gyro().state().error;
   if (heard.readings == 0) {
-    finding.found = "silent";
-    finding.wrong("no measurement arrives", "check its power, the serial port and the baud rate");
+    finding.found = "no reading";
+    const bool faulty = error && error->kind == hw::DeviceErrorKind::device_fault;
+    finding.wrong(faulty ? "its readings are not valid: " + error->what
+                         : "silent, or not understood: " + (error ? error->what : std::string("nothing arrives")),
+                  faulty ? "let it warm up; if that does not help, it is broken"
+                         : "check its power, the serial port, the baud rate and the variant");
     return finding;
   }
   const double rate_hz = heard.readings > 1 ? (heard.readings - 1) / seconds(heard.last - heard.first) : 0.0;
@@ -88,7 +87,7 @@ Finding examine_gyro(const hw::Dsp3000Config&, Site& site) {
     finding.wrong(fmt::format("{} of {} readings are not valid", heard.invalid, heard.readings),
                   "let it warm up; if that does not help, it is broken or in another mode than rate");
   }
-  if (const auto error = gyro->state().error) {
+  if (error) {
     finding.wrong(fmt::format("{}: {}", to_string(error->kind), error->what), "check its cable and the serial port");
   }
   return finding;

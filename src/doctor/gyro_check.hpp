@@ -1,12 +1,11 @@
-// The gyro, by listening.
+// The gyro, by listening; its adapter asks it for rate mode, as before a throw.
 #pragma once
 
-#include "hw/dsp3000/dsp3000_gyro.hpp"
 #include "src/doctor/finding.hpp"
 #include "src/doctor/site.hpp"
 
 namespace hogline::doctor {
 
-Finding examine_gyro(const hw::Dsp3000Config& config, Site& site);
+Finding examine_gyro(Site& site);
 
 }  // namespace hogline::doctor

@@ -20,6 +20,8 @@ class Site {
   virtual void pass(Duration span) = 0;
 
   virtual hw::CanBus& can() = 0;
+  /// Whether the pan-tilt head's nodes are on this bus, if the rig has a head.
+  virtual bool has_head() const = 0;
   /// "CAN can0".
   virtual std::string can_line() const = 0;
   /// Adds what the bus' adapter knows: state, counters, what is wrong.
@@ -29,8 +31,7 @@ class Site {
   /// "Modbus tcp 192.168.1.11:502".
   virtual std::string modbus_line() const = 0;
 
-  /// Null where the rig does not say how to reach it.
-  virtual hw::Gyro* gyro() = 0;
+  virtual hw::Gyro& gyro() = 0;
   virtual std::string gyro_line() const = 0;
 
   /// Null where the pictures are simulated and this is not the simulated rink.

@@ -46,7 +46,11 @@ std::unique_ptr<hw::Camera> folder_camera(const config::FolderSource& folder, co
 }  // namespace
 
 SteelSite::SteelSite(const config::ThrowerRig& rig)
-    : rig_(rig), can_({.interface = rig.rig.can_interface}, clock_.now()), modbus_(rig.modbus) {}
+    : rig_(rig),
+      can_({.interface = rig.rig.can_interface}, clock_.now()),
+      modbus_(rig.modbus),
+      gyro_port_(rig.gyro_port),
+      gyro_(gyro_port_, rig.gyro) {}
 
 void SteelSite::pass(Duration span) {
   for (const Stamp end = now() + span; now() < end;) {
@@ -82,6 +86,10 @@ std::string SteelSite::modbus_line() const {
       Overloaded{[](const hw::ModbusTcp& tcp) { return fmt::format("Modbus tcp {}:{}", tcp.address, tcp.port); },
                  [](const hw::ModbusRtu& rtu) { return fmt::format("Modbus rtu {} {}", rtu.device, rtu.baud); }},
       rig_.modbus.line.line);
+}
+
+std::string SteelSite::gyro_line() const {
+  return fmt::format("serial {} {}", rig_.gyro_port.device, rig_.gyro_port.baud);
 }
 
 std::string SteelSite::camera_line(const std::string& name) const {

@@ -24,7 +24,9 @@ class SimulatedRobot {
 
   ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_}; }
   hw::sim::Rink& rink() { return rink_; }
+  const hw::sim::Scenario& scenario() const { return scenario_; }
   const hw::sim::Rink& rink() const { return rink_; }
+  RinkGyroLine& gyro_line() { return gyro_line_; }
   hw::ModbusSession& session() { return session_; }
   hw::sim::RenderedCamera& near_camera() { return near_camera_; }
   hw::sim::RenderedCamera& low_camera() { return low_camera_; }

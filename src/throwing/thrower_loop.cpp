@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/geometry/sheet.hpp"
@@ -12,9 +14,13 @@ namespace {
 // Devices that have not answered yet have the epoch as their stamp.
 bool heard(Stamp stamp) { return stamp != Stamp{}; }
 
+std::array<std::optional<hw::DeviceError>, 6> errors_of(const ThrowerDevices& devices) {
+  return {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
+          devices.gyro.state().error,  devices.near_camera.error(),   devices.low_camera.error()};
+}
+
 std::optional<std::string> first_error(const ThrowerDevices& devices) {
-  for (const auto& error : {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
-                            devices.gyro.state().error, devices.near_camera.error(), devices.low_camera.error()}) {
+  for (const auto& error : errors_of(devices)) {
     if (error) return fmt::format("{}: {}: {}", error->device, to_string(error->kind), error->what);
   }
   return std::nullopt;
@@ -74,8 +80,16 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.gyro.step(now);
   eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
 
+  if (!thrower_.finished()) note_errors();  // afterwards nobody sends set-points, and the drives say so
   command_ = thrower_.step(observe(now), dt);
   apply(command_, now);
+}
+
+void ThrowerLoop::note_errors() {
+  for (const auto& error : errors_of(devices_)) {
+    const auto same = [&](const hw::DeviceError& e) { return e.device == error->device && e.since == error->since; };
+    if (error && std::ranges::none_of(device_errors_, same)) device_errors_.push_back(*error);
+  }
 }
 
 servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {

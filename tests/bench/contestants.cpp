@@ -63,7 +63,7 @@ CrossingLines crossing_lines(const Footage& footage) {
 
 std::vector<Contestant> near_contestants() {
   return {
-      {"chain", "seed's chain, plain OpenCV", false, [](const Footage& f) { return make_hough_chain(camera_of(f)); }},
+      {"chain", "paper's chain, plain OpenCV", false, [](const Footage& f) { return make_hough_chain(camera_of(f)); }},
       {"model", "ViSP vpMbGenericTracker", true,
        [](const Footage& f) { return make_visp_model(camera_of(f), painted_edges(f)); }},
       {"lines", "ViSP vpMeLine, vpMeEllipse, vpPose", true,
@@ -76,7 +76,7 @@ std::vector<Contestant> near_contestants() {
 // Both others are told the sheet's true width: the paper measures it with the near view.
 std::vector<Contestant> low_contestants() {
   return {
-      {"chain", "seed's Hough transform per frame, plain OpenCV", false,
+      {"chain", "paper's Hough transform per frame, plain OpenCV", false,
        [](const Footage& f) { return make_low_hough_chain(camera_of(f), f.sheet_width_m); }},
       {"lines", "ViSP vpMeLine", true,
        [](const Footage& f) { return make_visp_low_lines(camera_of(f), f.sheet_width_m); }},

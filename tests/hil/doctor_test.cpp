@@ -59,7 +59,7 @@ TEST(DoctorOnKernelCan, finds_foreign_drives_and_only_asks_them) {
   {
     doctor::SteelSite site(rig);
     site.pass(50ms);
-    findings = doctor::examine_drives(rig.drive, site);
+    findings = doctor::examine_drives(rig.drive, std::nullopt, site);
   }
   while (const auto received = listener.receive()) seen.push_back(*received);
 
@@ -91,7 +91,7 @@ TEST(DoctorOnKernelCan, says_which_node_is_not_the_rigs_and_which_is_missing) {
   rig.drive.right.node = 7;
   doctor::SteelSite site(rig);
   site.pass(50ms);
-  const auto findings = doctor::examine_drives(rig.drive, site);
+  const auto findings = doctor::examine_drives(rig.drive, std::nullopt, site);
   EXPECT_NE(doctor::table({of(findings, "left wheel")}).find("12345678"), std::string::npos);
   EXPECT_NE(doctor::table({of(findings, "right wheel")}).find("never answers"), std::string::npos);
 }
@@ -99,7 +99,7 @@ TEST(DoctorOnKernelCan, says_which_node_is_not_the_rigs_and_which_is_missing) {
 TEST(DoctorOnKernelCan, says_that_the_link_is_down_or_missing) {
   const config::ThrowerRig rig = rig_on("nosuchcan0");
   doctor::SteelSite site(rig);
-  const auto findings = doctor::examine_drives(rig.drive, site);
+  const auto findings = doctor::examine_drives(rig.drive, std::nullopt, site);
   EXPECT_EQ(of(findings, "CAN bus").verdict(), doctor::Verdict::wrong);
   EXPECT_NE(doctor::table(findings).find("no such CAN interface"), std::string::npos) << doctor::table(findings);
 }

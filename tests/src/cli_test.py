@@ -118,6 +118,13 @@ class Pose(unittest.TestCase):
         self.assertEqual([line["features"][0] for line in lines], ["acquired", "tracked", "tracked"])
         self.assertAlmostEqual(lines[0]["yaw_deg"], lines[2]["yaw_deg"], delta=0.005)
 
+    def test_output_that_can_not_be_written_is_a_failure(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([HOGLINE, "pose", "--rig", RIG, "--camera", "near", SCENE], stdout=full,
+                                    stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("output", result.stderr)
+
     def test_a_picture_of_another_size_is_not_estimated(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(RIG, encoding="utf-8") as f:

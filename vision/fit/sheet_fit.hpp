@@ -25,6 +25,7 @@ struct SheetFitStart {
   double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
   double most_sigma_m = 0.25;           ///< a place across or along the sheet less sure than this is none
   double travel_m = 0.0;                ///< of the camera along y during the exposure: motion blur to expect
+  bool may_be_hidden = false;           ///< paint in pieces of the picture that bear none out is hidden, not missing
   double paint_depth_sigma_m = 0.0;     ///< prior on the setup's paint depth; 0: taken as given, else estimated too
 };
 

@@ -145,7 +145,7 @@ std::string SheetFit::Impl::refusal(const SheetFitStart& start) const {
   if (!covariance.allFinite()) return "the fit is not determined";
   if (result.sites_used < 12) return "too few places of paint were found";
   const bool half_hidden = result.sites_used < least_share * result.sites_tried;
-  const int in_sight = result.sites_tried - result.sites_hidden;
+  const int in_sight = result.sites_tried - (start.may_be_hidden ? result.sites_hidden : 0);
   if (result.sites_used < least_share * in_sight) return "most of the paint is not where the fit puts it";
   if (half_hidden && result.sites_used < least_sites_half_hidden) return "most of the paint is hidden";
   if (result.residual_px > (half_hidden ? most_residual_half_hidden_px : most_residual_px)) {

@@ -111,7 +111,7 @@ class ModbusLine : public testing::TestWithParam<LineFault> {};
 TEST_P(ModbusLine, fault_keeps_the_stone_and_moves_nothing_until_rearmed) {
   const auto& fault = GetParam();
   const bool dies = fault.kind == disconnected && !fault.faults.reset_mid_frame;
-  Rig rig({.wire = fault.wire, .response_timeout = 100ms});
+  Rig rig({.wire = fault.wire, .response_timeout = 250ms});
   rig.gripper.spin(1.0);
   rig.arm.unfold();
   rig.run(500ms);
