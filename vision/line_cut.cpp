@@ -83,9 +83,10 @@ std::optional<LineCut> LineCutter::cut(const LinePlace& place) const {
   c.sides = (*after - *before).norm();
   c.wide = width > wide_px;
   if (!c.wide) return c;
-  const double margin = std::max(0.18 * width, 1.5);
+  const double outside = half + std::max(0.18 * width, 1.5);
+  const double within = half - std::max(0.12 * width, 1.0);
   int k = 0;
-  for (const double t : {-half - margin, -half + margin, half - margin, half + margin}) {
+  for (const double t : {-outside, -within, within, outside}) {
     const auto light = at(t);
     if (!light) return std::nullopt;
     c.edges.col(k++) = *light - c.ice;
