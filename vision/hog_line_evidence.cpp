@@ -16,10 +16,13 @@ constexpr double half_width_m = 2.1;  // of the narrowest sheet, nearly
 constexpr double clear_m = 0.06;      // of other lines
 constexpr double step_px = 8.0;
 constexpr double farthest_m = 8.0;  // from the camera, of the centre line
+constexpr double surely_seen_m = 5.5;
 constexpr int fewest_cuts = 16;
 constexpr double least_seen = 0.3;
 constexpr double most_bare = 0.3;
 constexpr int fewest_of_a_half = 8;
+constexpr int fewest_beyond = 6;
+constexpr double least_beyond = 0.2;
 
 /// Cuts along a line, evenly spaced in the picture, and where they were made.
 struct Cuts {
@@ -66,7 +69,7 @@ void weigh_halves(const LineCutter& cutter, HogLineEvidence& evidence) {
 }
 
 // Beside rings and other lines; they are of other colours.
-LineStretch weigh_centre(const LineCutter& cutter) {
+void weigh_centre(const LineCutter& cutter, HogLineEvidence& evidence) {
   const auto alone = [](double y) {
     if (std::abs(y) < rules::outer_ring_radius_m + clear_m) return false;
     return std::ranges::none_of(cross_lines(), [y](const CrossLine& line) {
@@ -75,10 +78,13 @@ LineStretch weigh_centre(const LineCutter& cutter) {
   };
   const double camera_y_m = cutter.camera().eMc().translation().y();
   const Cuts centre = cut_along(cutter, camera_y_m + 0.1, camera_y_m + farthest_m, centre_line_at, alone);
-  LineStretch stretch;
-  for (const LineLook look : looks_of(centre.cuts)) count(look, stretch);
-  stretch.looked = static_cast<int>(centre.cuts.size());
-  return stretch;
+  const std::vector<LineLook> looks = looks_of(centre.cuts);
+  for (std::size_t i = 0; i < centre.cuts.size(); ++i) {
+    const LineLook look = looks.empty() ? LineLook::hidden : looks[i];
+    const double y = centre.at_m[i];
+    count(look, evidence.centre);
+    if (y > rules::tee_to_hog_m && y < camera_y_m + surely_seen_m) count(look, evidence.beyond);
+  }
 }
 
 // The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
@@ -115,7 +121,7 @@ HogLineEvidence weigh_hog_line(const Picture& picture, const ResponseCurve& resp
   const LineCutter cutter(picture, response, camera);
   HogLineEvidence evidence;
   weigh_halves(cutter, evidence);
-  evidence.centre = weigh_centre(cutter);
+  weigh_centre(cutter, evidence);
   evidence.house_beyond = house_beyond(cutter);
   return evidence;
 }
@@ -131,6 +137,9 @@ std::string doubt(const HogLineEvidence& evidence) {
   }
   if (evidence.centre.looked >= fewest_cuts && evidence.centre.seen < least_seen * evidence.centre.looked) {
     return "the centre line is not where the pose puts it";
+  }
+  if (evidence.beyond.looked >= fewest_beyond && evidence.beyond.seen < least_beyond * evidence.beyond.looked) {
+    return "the centre line does not go on beyond what lies across";
   }
   if (evidence.house_beyond) return "a house lies beyond the line: it is the other end's";
   return {};

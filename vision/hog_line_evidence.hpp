@@ -22,6 +22,7 @@ struct HogLineEvidence {
   LineStretch left;           ///< of the hog line, across one half of the sheet
   LineStretch right;          ///< the same of the other half
   LineStretch centre;         ///< of the centre line, outside the house
+  LineStretch beyond;         ///< of the centre line, beyond the hog line
   bool house_beyond = false;  ///< rings lie behind the line: it is the other end's
 };
 
