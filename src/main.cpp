@@ -8,6 +8,7 @@
 #include "src/demo_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/pose_command.hpp"
+#include "src/stones_command.hpp"
 #include "src/throw_command.hpp"
 
 namespace {
@@ -42,6 +43,20 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return pose;
+}
+
+CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
+  auto* stones = app.add_subcommand("stones", "the stones on the sheet from pictures of the near camera");
+  stones->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")
+      ->required();
+  stones->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
+  stones->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  stones->footer(
+      "Prints one JSON object a line, places in metres from the tee of the house in view.\n"
+      "Example:\n"
+      "  hogline stones --rig rig.yaml frame.jpg\n"
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+  return stones;
 }
 
 void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
@@ -87,10 +102,12 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", HOGLINE_VERSION);
   app.require_subcommand(1);
   hogline::PoseOptions pose_options;
+  hogline::StonesOptions stones_options;
   hogline::ThrowOptions throw_options;
   hogline::ThrowOptions demo_options;
   demo_options.out = "out/demo";
   const auto* pose = add_pose(app, pose_options);
+  const auto* stones = add_stones(app, stones_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
   try {
@@ -99,6 +116,7 @@ int run(int argc, char** argv) {
     return app.exit(e) == 0 ? ExitStatus::success : ExitStatus::wrong_use;
   }
   if (*pose) return hogline::run_pose(pose_options);
+  if (*stones) return hogline::run_stones(stones_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;

@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 
-#include "hw/files/image_file.hpp"
-#include "hw/files/png_writer.hpp"
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
 #include "src/drawing/picture_overlay.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
+#include "src/pictures.hpp"
 #include "vision/low_sequence.hpp"
 #include "vision/low_view.hpp"
 #include "vision/near_view.hpp"
@@ -58,13 +55,6 @@ Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup
   return options.sequence ? sequence_estimator(setup) : low_estimator(setup);
 }
 
-void save(const std::string& folder, const std::string& image, const cv::Mat& drawing) {
-  const std::filesystem::path name = std::filesystem::path(image).stem();
-  if (const auto problem = hw::files::write_png((std::filesystem::path(folder) / name).string() + ".png", drawing)) {
-    throw std::runtime_error(*problem);
-  }
-}
-
 void check_use(const PoseOptions& options) {
   if (options.sequence && options.camera != "low") {
     throw config::ConfigError("command line", 0, "--sequence", "", "goes with --camera low only");
@@ -73,22 +63,7 @@ void check_use(const PoseOptions& options) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
                               "must be above 0, at most 1000 frames a second");
   }
-  for (const std::string& image : options.images) {
-    if (!std::filesystem::is_regular_file(image)) {
-      throw config::ConfigError(image, 0, "", "", "no such picture; give the path of a readable JPEG or PNG file");
-    }
-  }
-}
-
-// A picture that is none is wrong use; one that another camera took is a picture in which nothing can be estimated.
-hw::files::LoadedImage read_picture(const std::string& path, const vision::Intrinsics& camera) {
-  using hw::files::ImageErrorKind;
-  hw::files::LoadedImage loaded = hw::files::load_image(path, {camera.width_px, camera.height_px});
-  if (loaded.error && loaded.error->kind != ImageErrorKind::wrong_size &&
-      loaded.error->kind != ImageErrorKind::wrong_format) {
-    throw config::ConfigError(path, 0, "", "", loaded.error->what);
-  }
-  return loaded;
+  check_pictures_exist(options.images);
 }
 
 SheetPosePercept not_seen(const std::string& reason, Stamp stamp) {
@@ -118,7 +93,7 @@ int run_pose(const PoseOptions& options) {
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", pose_line(path, percept, elapsed.count()));
     std::fflush(stdout);
-    if (!drawing.empty()) save(options.draw, path, drawing);
+    if (!drawing.empty()) save_drawing(options.draw, path, drawing);
     all_estimated = all_estimated && percept.ok;
     stamp += from_seconds(1.0 / options.rate_hz);
   }

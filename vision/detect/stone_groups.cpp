@@ -1,0 +1,159 @@
+#include "vision/detect/stone_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/detect/ground_view.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double range_m = 13.0;        // from the body: the hog line and a little more
+constexpr double grip_height_m = 0.07;  // over the handle's rim
+constexpr float darkest = 0.04F;        // of granite, against ice
+constexpr float lightest = 0.62F;
+constexpr float least_neutral = 0.08F;  // spread of the channels that noise alone makes
+constexpr float most_coloured = 0.30F;  // spread of the channels as a share of the brightest
+constexpr double least_granite = 0.30;  // share of the body below a handle; nearer stones may hide the rest
+constexpr float margin_px = 4.0F;
+
+// Overlapping boxes become one, until none overlap.
+std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = i + 1; j < boxes.size();) {
+        if ((boxes[i] & boxes[j]).area() > 0) {
+          boxes[i] |= boxes[j];
+          boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(j));
+          again = true;
+        } else {
+          ++j;
+        }
+      }
+    }
+  }
+  return boxes;
+}
+
+}  // namespace
+
+StoneGroupFinder::StoneGroupFinder(const CameraSetup& setup, const StoneShape& shape)
+    : columns_((setup.intrinsics.width_px + block_px - 1) / block_px), top_(GroundView(setup).first_row(range_m) & ~1) {
+  const SheetCamera camera(Lens(setup.intrinsics), eMb(PlanarPose{}) * bMc(setup.mount), setup.ice);
+  const int rows = (setup.intrinsics.height_px + block_px - 1) / block_px;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      const Eigen::Vector2d middle((c + 0.5) * block_px, (r + 0.5) * block_px);
+      extents_.push_back(extent_at(camera, middle, shape));
+    }
+  }
+}
+
+StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, const Eigen::Vector2d& pixel,
+                                                     const StoneShape& shape) const {
+  const auto place = camera.plane_at(pixel, shape.handle_height_m);
+  if (!place) return {};
+  const Eigen::Vector3d eye = camera.eMc().translation();
+  const Bearing bearing = bearing_of(*place, eye);
+  if (bearing.range_m > 2.0 * range_m || bearing.range_m < 2.0 * shape.body_radius_m) return {};
+  const double granite_m = shape.handle_height_m - shape.handle_thickness_m;
+  const auto side = camera.project(body_outline_point(*place, shape, eye, 0.0));
+  const auto begin =
+      camera.project(circle_point(*place, bearing, shape.handle_radius_m, granite_m, -0.5 * std::numbers::pi));
+  const auto foot = camera.project(body_outline_point(*place, shape, eye, -0.5 * std::numbers::pi));
+  const auto grip = camera.project({place->x(), place->y(), shape.handle_height_m + grip_height_m});
+  if (!side || !begin || !foot || !grip) return {};
+  Extent e;
+  e.seen = true;
+  e.half_width = static_cast<float>(std::abs(side->x() - pixel.x()));
+  e.side = 0.7F * e.half_width;
+  e.granite_top = static_cast<float>(begin->y() - pixel.y());
+  e.below = static_cast<float>(foot->y() - pixel.y());
+  e.granite_bottom = e.granite_top + 0.85F * (e.below - e.granite_top);
+  e.above = static_cast<float>(grip->y() - pixel.y());
+  return e;
+}
+
+StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const {
+  StoneGroups groups;
+  groups.top = top_;
+  groups.centres = possible_centres(granite(bgr, ice, response));
+  groups.boxes = boxes_of(groups.centres, bgr.size());
+  return groups;
+}
+
+// At half size, 1 where a pixel may be granite.
+cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const {
+  const cv::Mat lower = bgr.rowRange(top_, bgr.rows);
+  cv::Mat half;
+  cv::resize(lower, half, cv::Size(lower.cols / 2, lower.rows / 2), 0.0, 0.0, cv::INTER_AREA);
+  cv::Mat mask(half.size(), CV_8UC1);
+  constexpr int run = 16;
+  for (int r = 0; r < half.rows; ++r) {
+    const std::uint8_t* in = half.ptr<std::uint8_t>(r);
+    std::uint8_t* out = mask.ptr<std::uint8_t>(r);
+    for (int begin = 0; begin < half.cols; begin += run) {
+      const auto white = ice.at(2.0 * begin + run, top_ + 2.0 * r);
+      const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
+      for (int c = begin; c < std::min(begin + run, half.cols); ++c) {
+        const float b = response.linear(in[3 * c]) * scale[0];
+        const float g = response.linear(in[3 * c + 1]) * scale[1];
+        const float red = response.linear(in[3 * c + 2]) * scale[2];
+        const float high = std::max({b, g, red});
+        const float spread = high - std::min({b, g, red});
+        out[c] = high > darkest && high < lightest && spread < least_neutral + most_coloured * high ? 1 : 0;
+      }
+    }
+  }
+  return mask;
+}
+
+cv::Mat StoneGroupFinder::possible_centres(const cv::Mat& granite) const {
+  cv::Mat sums;
+  cv::integral(granite, sums, CV_32S);
+  cv::Mat centres(granite.size(), CV_8UC1, cv::Scalar(0));
+  for (int r = 0; r < granite.rows; ++r) {
+    std::uint8_t* out = centres.ptr<std::uint8_t>(r);
+    for (int c = 0; c < granite.cols; ++c) {
+      const Extent& e = extent(2 * c, top_ + 2 * r);
+      if (!e.seen) continue;
+      const int x0 = std::clamp(c - static_cast<int>(0.5F * e.side), 0, granite.cols);
+      const int x1 = std::clamp(c + static_cast<int>(0.5F * e.side) + 1, 0, granite.cols);
+      const int y0 = std::clamp(r + static_cast<int>(0.5F * e.granite_top), 0, granite.rows);
+      const int y1 = std::clamp(r + static_cast<int>(0.5F * e.granite_bottom) + 1, 0, granite.rows);
+      const int area = (x1 - x0) * (y1 - y0);
+      if (area <= 0) continue;
+      const int* upper = sums.ptr<int>(y0);
+      const int* lower = sums.ptr<int>(y1);
+      const int found = lower[x1] - lower[x0] - upper[x1] + upper[x0];
+      if (found >= least_granite * area) out[c] = 255;
+    }
+  }
+  return centres;
+}
+
+std::vector<cv::Rect> StoneGroupFinder::boxes_of(const cv::Mat& centres, cv::Size picture) const {
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat middles;
+  const int count = cv::connectedComponentsWithStats(centres, labels, stats, middles, 8, CV_32S);
+  std::vector<cv::Rect> boxes;
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect half(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const int y0 = top_ + 2 * half.y;
+    const int y1 = std::min(top_ + 2 * half.br().y, picture.height) - 1;
+    const Extent& low = extent(std::min(2 * half.x + half.width, picture.width - 1), y1);
+    const auto side = static_cast<int>(low.half_width + margin_px);
+    const int above = static_cast<int>(std::abs(low.above) + margin_px);
+    const int below = static_cast<int>(low.below + margin_px);
+    const cv::Rect whole(cv::Point(2 * half.x - side, y0 - above), cv::Point(2 * half.br().x + side, y1 + below));
+    boxes.push_back(whole & cv::Rect({0, 0}, picture));
+  }
+  return merged(boxes);
+}
+
+}  // namespace hogline::vision
