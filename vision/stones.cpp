@@ -1,12 +1,25 @@
 #include "vision/stones.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vision/detect/ice_light.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
+#include "vision/fit/stone_fit.hpp"
+#include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
+namespace {
+
+constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is still ours to see
+constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
+constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
+constexpr double look_around_m = 0.15;
+
+StoneFitOptions quick_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
+
+}  // namespace
 
 struct StoneFinder::Impl {
   explicit Impl(const StonesSetup& stones_setup)
@@ -16,6 +29,12 @@ struct StoneFinder::Impl {
         groups(stones_setup.camera, stones_setup.shape) {}
 
   std::string unusable(const cv::Mat& image) const;
+  StoneArea area(std::optional<double> sheet_width_m) const;
+  std::vector<JudgedStone> screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+                                  const std::vector<StoneCandidate>& candidates) const;
+  void refine(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+              std::vector<JudgedStone>& stones) const;
+  StoneSighting sighting(const JudgedStone& stone) const;
 
   StonesSetup setup;
   Lens lens;
@@ -35,32 +54,25 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   seen.reason = impl_->unusable(image);
   if (!seen.reason.empty()) return seen;
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
+  const StoneArea area = impl_->area(sheet_width_m);
 
   const IceLight ice(image, impl_->response, impl_->groups.top());
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
-  const auto candidates = vote_for_stones(image, groups, ice, impl_->response, camera, impl_->setup.shape);
+  const auto candidates = vote_for_stones(image, groups, ice, impl_->response, camera, impl_->setup.shape,
+                                          {.area = area.wider(look_around_m)});
 
-  const double half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m);
-  for (const StoneCandidate& c : candidates) {
-    std::string verdict;
-    if (std::abs(c.place.x()) > half_width_m + 0.15) verdict = "beyond the sideline";
-    if (c.place.y() > rules::tee_to_hog_m + 0.3) verdict = "beyond the hog line";
-    if (c.votes < 0.5) verdict = "few votes";
-    const auto colour = handle_colour(image, c.place, camera, impl_->setup.shape, ice, impl_->response);
-    if (!colour) verdict = "no colour";
-    if (sketch != nullptr) {
-      sketch->candidates.push_back({c.place.x(), c.place.y(), c.votes, c.handle_votes, c.body_votes, verdict});
-    }
-    if (!verdict.empty()) continue;
-    StoneSighting stone;
-    stone.x_m = c.place.x();
-    stone.y_m = c.place.y();
-    stone.colour = *colour;
-    const TeamVerdict team = team_of(*colour, impl_->setup.teams);
-    stone.team = team.team;
-    stone.team_confidence = team.confidence;
-    stone.support = c.votes;
-    seen.stones.push_back(stone);
+  std::vector<JudgedStone> stones = impl_->screen(image, ice, camera, candidates);
+  compare_granite(stones);
+  part_overlapping(stones);
+
+  impl_->refine(image, ice, camera, stones);
+  compare_granite(stones);
+  part_overlapping(stones);
+
+  for (JudgedStone& s : stones) {
+    if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
+    if (s.doubt.empty()) seen.stones.push_back(impl_->sighting(s));
+    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.doubt});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
@@ -79,6 +91,58 @@ std::string StoneFinder::Impl::unusable(const cv::Mat& image) const {
            std::to_string(k.width_px) + "x" + std::to_string(k.height_px);
   }
   return {};
+}
+
+// Where a stone of this sheet can lie: its centre between the sidelines. A stone that touches one is out, but ours.
+StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
+  StoneArea area;
+  area.half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m) + beside_m;
+  area.min_y_m = -rules::tee_to_back_m - behind_house_m;
+  area.max_y_m = rules::tee_to_hog_m + behind_hog_m;
+  return area;
+}
+
+// Each by itself: what is no stone does not look like one in any light.
+std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+                                                   const std::vector<StoneCandidate>& candidates) const {
+  std::vector<JudgedStone> stones;
+  for (const StoneCandidate& c : candidates) {
+    const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
+    stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0])});
+  }
+  return stones;
+}
+
+// All together: stones that hide each other, and the shape they share.
+void StoneFinder::Impl::refine(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+                               std::vector<JudgedStone>& stones) const {
+  std::vector<Eigen::Vector2d> starts;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) starts.push_back(s.fit.place);
+  }
+  const auto result = fit_stones(image, response, ice, camera, setup.shape, starts);
+  std::size_t next = 0;
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty()) continue;
+    s.fit = result.stones[next++];
+    s.doubt = doubt_of(s.candidate, s.fit);
+  }
+}
+
+StoneSighting StoneFinder::Impl::sighting(const JudgedStone& stone) const {
+  StoneSighting s;
+  s.x_m = stone.fit.place.x();
+  s.y_m = stone.fit.place.y();
+  s.covariance = {stone.fit.covariance(0, 0), stone.fit.covariance(0, 1), stone.fit.covariance(1, 1)};
+  s.colour = {static_cast<float>(stone.fit.handle[2]), static_cast<float>(stone.fit.handle[1]),
+              static_cast<float>(stone.fit.handle[0])};
+  const TeamVerdict team = team_of(s.colour, setup.teams);
+  s.team = team.team;
+  s.team_confidence = team.confidence;
+  s.support = stone.candidate.votes;
+  s.visible = stone.fit.visible;
+  s.residual = stone.fit.residual;
+  return s;
 }
 
 }  // namespace hogline::vision

@@ -8,6 +8,7 @@
 
 #include "vision/camera_setup.hpp"
 #include "vision/detect/stone_team.hpp"
+#include "vision/detect/stone_vote.hpp"
 #include "vision/geometry/stone_shape.hpp"
 #include "vision/percepts/stones.hpp"
 
@@ -23,12 +24,8 @@ struct StonesSetup {
 struct StonesSketch {
   std::vector<cv::Rect> boxes;
   struct Candidate {
-    double x_m = 0.0;
-    double y_m = 0.0;
-    double votes = 0.0;
-    double handle_votes = 0.0;
-    double body_votes = 0.0;
-    std::string verdict;  ///< empty: a stone; else why it is none
+    StoneCandidate votes;
+    std::string doubt;  ///< empty: a stone; else why it is none
   };
   std::vector<Candidate> candidates;
 };

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
+
+#include "vision/geometry/pose.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -18,9 +19,9 @@ struct Hue {
 };
 
 Hue hue_of(const std::array<float, 3>& colour) {
-  const double r = colour[0];
-  const double g = colour[1];
-  const double b = colour[2];
+  const double r{colour[0]};
+  const double g{colour[1]};
+  const double b{colour[2]};
   const double high = std::max({r, g, b});
   const double low = std::min({r, g, b});
   // The hexagon's angle, which is what hue means to people who choose one.
@@ -38,37 +39,6 @@ Hue hue_of(const std::array<float, 3>& colour) {
 }
 
 }  // namespace
-
-std::optional<std::array<float, 3>> handle_colour(const cv::Mat& bgr, const Eigen::Vector2d& place,
-                                                  const SheetCamera& camera, const StoneShape& shape,
-                                                  const IceLight& ice, const ResponseCurve& response) {
-  const Bearing bearing = bearing_of(place, camera.eMc().translation());
-  std::array<std::vector<float>, 3> values;
-  for (int i = 0; i < 40; ++i) {
-    // The near half of the plate, evenly by area; the grip stands over the far half.
-    const double radius = shape.handle_radius_m * 0.85 * std::sqrt((i % 5 + 0.5) / 5.0);
-    const double angle = -std::numbers::pi * (0.1 + 0.8 * (i / 5 + 0.5) / 8.0);
-    const double height = shape.handle_height_m - 0.3 * shape.handle_thickness_m;
-    const auto pixel = camera.project(circle_point(place, bearing, radius, height, angle));
-    if (!pixel || !camera.lens().in_picture(*pixel, 1.0)) continue;
-    const auto x = static_cast<int>(std::lround(pixel->x()));
-    const auto y = static_cast<int>(std::lround(pixel->y()));
-    const std::uint8_t* p = bgr.ptr<std::uint8_t>(y) + 3 * x;
-    for (std::size_t k = 0; k < 3; ++k) values[k].push_back(response.linear(p[2 - k]));
-  }
-  if (values[0].size() < 20) return std::nullopt;
-  const auto centre = camera.project({place.x(), place.y(), shape.handle_height_m});
-  if (!centre) return std::nullopt;
-  const auto white = ice.at(centre->x(), centre->y());
-  std::array<float, 3> colour{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    auto& v = values[k];
-    const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    colour[k] = *middle / white[2 - k];
-  }
-  return colour;
-}
 
 TeamVerdict team_of(const std::array<float, 3>& colour, const TeamHues& hues) {
   const Hue hue = hue_of(colour);

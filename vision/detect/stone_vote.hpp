@@ -50,6 +50,7 @@ struct StoneArea {
   bool contains(const Eigen::Vector2d& place) const {
     return std::abs(place.x()) <= half_width_m && place.y() >= min_y_m && place.y() <= max_y_m;
   }
+  StoneArea wider(double by_m) const { return {half_width_m + by_m, min_y_m - by_m, max_y_m + by_m}; }
 };
 
 struct StoneVoteOptions {

@@ -1,5 +1,5 @@
-// The joint refinement of stones' places: every pixel about the outlines of handle and body is explained as a mixture of
-// the handle's colour, granite and what is behind; Gauss-Newton on all places, with the shape that all stones share
+// The joint refinement of stones' places: every pixel about the outlines of handle and body is explained as a mixture
+// of the handle's colour, granite and what is behind; Gauss-Newton on all places, with the shape that all stones share
 // (the handle's thickness, the body's radius and height) found along with them.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vision/detect/ice_light.hpp"
-#include "vision/fit/stone_patch.hpp"
+#include "vision/fit/stone_model.hpp"
 
 namespace hogline::vision {
 
@@ -29,7 +29,7 @@ struct FittedStone {
 
 struct StoneFitResult {
   std::vector<FittedStone> stones;  ///< as many as were given, in their order
-  StoneShape shape;                 ///< as refined
+  SharedLook look;                  ///< as refined
 };
 
 struct StoneFitOptions {

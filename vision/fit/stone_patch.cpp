@@ -8,7 +8,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr double margin_px = 3.0;
-constexpr double band_px = 3.5;     // about an outline: blur, and what the fit may move
+constexpr double band_px = 3.5;       // about an outline: blur, and what the fit may move
 constexpr double clearance_px = 2.8;  // beyond the outline the stone's light has faded
 
 /// Lines of sight of a rectangle, by second-order interpolation between nine.
@@ -81,8 +81,10 @@ cv::Rect bounds_of(const SheetCamera& camera, const StonePlace& stone) {
       high = high.cwiseMax(*pixel);
     }
   }
-  const cv::Point a(static_cast<int>(std::floor(low.x() - margin_px)), static_cast<int>(std::floor(low.y() - margin_px)));
-  const cv::Point b(static_cast<int>(std::ceil(high.x() + margin_px)), static_cast<int>(std::ceil(high.y() + margin_px)));
+  const cv::Point a(static_cast<int>(std::floor(low.x() - margin_px)),
+                    static_cast<int>(std::floor(low.y() - margin_px)));
+  const cv::Point b(static_cast<int>(std::ceil(high.x() + margin_px)),
+                    static_cast<int>(std::ceil(high.y() + margin_px)));
   const Intrinsics& k = camera.lens().intrinsics();
   return cv::Rect(a, b) & cv::Rect(0, 0, k.width_px, k.height_px);
 }
@@ -117,7 +119,9 @@ std::vector<StonePixel> stone_pixels(const PatchSource& source, const SheetCamer
     const std::uint8_t* row = source.bgr.ptr<std::uint8_t>(y);
     for (int x = area.x; x < area.br().x; ++x) {
       // Of a big stone every second pixel in a chequered pattern, of a bigger one every fourth.
-      const int keep = static_cast<std::size_t>(area.area()) > 8 * most ? 4 : static_cast<std::size_t>(area.area()) > 3 * most ? 2 : 1;
+      const int keep = static_cast<std::size_t>(area.area()) > 8 * most   ? 4
+                       : static_cast<std::size_t>(area.area()) > 3 * most ? 2
+                                                                          : 1;
       if ((x + 2 * y + y / 2) % keep != 0) continue;
       StonePixel p;
       p.pixel = {x, y};
@@ -133,8 +137,71 @@ std::vector<StonePixel> stone_pixels(const PatchSource& source, const SheetCamer
   return all;
 }
 
+namespace {
+
+/// The mean of three samples a pixel apart; false where the picture ends.
+bool mean_light(const PatchSource& source, const Eigen::Vector2d& from, const Eigen::Vector2d& step, Light& mean) {
+  mean.setZero();
+  for (int i = 0; i < 3; ++i) {
+    Light light;
+    if (!source.light_at(from + i * step, light)) return false;
+    mean += light / 3.0;
+  }
+  return true;
+}
+
+/// What is to the left and right of a stone, row by row.
+class Sides {
+ public:
+  Sides(const PatchSource& source, const std::vector<StonePixel>& pixels) : source_(source) {
+    for (const StonePixel& p : pixels) {
+      left_ = std::min(left_, p.pixel.x());
+      right_ = std::max(right_, p.pixel.x());
+    }
+  }
+
+  /// Between the two sides where they agree; nothing where they do not.
+  bool at(const Eigen::Vector2d& pixel, Light& light) const {
+    Light left;
+    Light right;
+    if (!mean_light(source_, {left_, pixel.y()}, {-1.0, 0.0}, left)) return false;
+    if (!mean_light(source_, {right_, pixel.y()}, {1.0, 0.0}, right)) return false;
+    if ((left - right).norm() > 0.15 + 0.15 * (left + right).norm()) return false;
+    const double part = (pixel.x() - left_) / std::max(1.0, right_ - left_);
+    light = left + part * (right - left);
+    return true;
+  }
+
+ private:
+  const PatchSource& source_;
+  double left_ = 1e9;
+  double right_ = -1e9;
+};
+
+/// There is something of the handle's colour over the rim: its grip.
+bool grip_over(const PatchSource& source, const Eigen::Vector2d& rim, const Eigen::Vector2d& outward, double reach_px,
+               const Light& handle, const Light& behind) {
+  const Light change = handle - behind;
+  const double size = change.norm();
+  if (size < 0.1) return true;  // it could not be told
+  for (double px = 1.2; px < reach_px; px += 1.0) {
+    Light light;
+    if (!source.light_at(rim + px * outward, light)) return true;
+    const Light difference = light - behind;
+    const double part = difference.dot(change) / (size * size);
+    const double other = (difference - part * change).norm();
+    const double fading = px < 2.0 ? 0.2 : 0.0;  // of the rim itself
+    if (part > 0.25 + fading && other < 0.6 * part * size) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
                  const Light& handle_colour, std::vector<StonePixel>& pixels) {
+  const Sides sides(source, pixels);
+  const double grip_m = 0.06;
   for (StonePixel& p : pixels) {
     const RegionDistance handle = handle_distance(stone, eye, p.sight);
     const RegionDistance body = body_distance(stone, eye, p.sight);
@@ -142,23 +209,18 @@ void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen
     p.usable = true;
     p.behind.setZero();
     if (outer.px > band_px + 0.5) continue;  // nothing behind shines through
-    int samples = 0;
-    for (int i = 0; i < 3; ++i) {
-      Light light;
-      if (!source.light_at(p.pixel + (std::max(outer.px, -clearance_px) + clearance_px + i) * outer.outward, light)) {
-        continue;
-      }
-      p.behind += light;
-      ++samples;
-    }
-    if (samples == 0) {
+    const Eigen::Vector2d rim = p.pixel + outer.px * outer.outward;
+    const bool far_rim = &outer == &handle;
+    const bool known = far_rim && sides.at(rim + clearance_px * outer.outward, p.behind);
+    if (!known && !mean_light(source, rim + clearance_px * outer.outward, outer.outward, p.behind)) {
       p.usable = false;
       continue;
     }
-    p.behind /= samples;
-    // The grip stands over the handle's far side: no outline is to be seen there.
-    const bool grip = &outer == &handle && (p.behind - handle_colour).norm() < 0.35 * (Light::Ones() - handle_colour).norm();
-    if (grip) p.usable = false;
+    if (far_rim && handle_colour.squaredNorm() > 0.0) {
+      const double px_per_m = 1.0 / std::max(1e-9, (eye.z() * p.sight.by_pixel.col(0)).norm());
+      const double reach_px = std::clamp(grip_m * px_per_m, 2.5, 12.0);
+      p.usable = !grip_over(source, rim, outer.outward, reach_px, handle_colour, p.behind);
+    }
   }
 }
 

@@ -18,7 +18,7 @@ struct StonePixel {
   SightLine sight;
   Eigen::Vector2d pixel;
   Light light;
-  Light behind;         ///< what would be seen without the stone
+  Light behind;        ///< what would be seen without the stone
   bool usable = true;  ///< its background is known and nothing nearer hides it
 };
 

@@ -8,27 +8,37 @@ namespace {
 
 constexpr double tiny = 1e-9;
 
+// A level disc `part` of the thickness below the upper rim.
+RegionDistance disc_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight, double part) {
+  const double drop = eye.z() - stone.shape.handle_height_m + part * stone.shape.handle_thickness_m;
+  const Eigen::Vector2d from_axis = eye.head<2>() + drop * sight.slope - stone.place;
+  const double radius = std::max(tiny, from_axis.norm());
+  const Eigen::Vector2d normal = from_axis / radius;
+  const Eigen::Vector2d gradient = drop * sight.by_pixel.transpose() * normal;
+  const double scale = 1.0 / std::max(tiny, gradient.norm());
+  RegionDistance d;
+  d.px = scale * (stone.shape.handle_radius_m - radius);
+  d.outward = scale * gradient;
+  const double by_drop = scale * normal.dot(sight.slope);
+  d.by << scale * normal, -part * by_drop, 0.0, 0.0, by_drop, scale;
+  return d;
+}
+
 }  // namespace
 
 // The union of three level discs, at the upper rim, half way down and at the lower rim: within 2 mm of the cylinder for
 // any view from above.
 RegionDistance handle_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight) {
-  RegionDistance best;
-  best.px = -1e9;
-  for (const double part : {0.0, 0.5, 1.0}) {
-    const double drop = eye.z() - stone.shape.handle_height_m + part * stone.shape.handle_thickness_m;
-    const Eigen::Vector2d from_axis = eye.head<2>() + drop * sight.slope - stone.place;
-    const double radius = std::max(tiny, from_axis.norm());
-    const Eigen::Vector2d normal = from_axis / radius;
-    const Eigen::Vector2d gradient = drop * sight.by_pixel.transpose() * normal;
-    const double scale = 1.0 / std::max(tiny, gradient.norm());
-    const double px = scale * (stone.shape.handle_radius_m - radius);
-    if (px <= best.px) continue;
-    best.px = px;
-    best.outward = scale * gradient;
-    best.by << scale * normal, -scale * part * normal.dot(sight.slope), 0.0, 0.0;
+  RegionDistance best = disc_distance(stone, eye, sight, 0.0);
+  for (const double part : {0.5, 1.0}) {
+    const RegionDistance d = disc_distance(stone, eye, sight, part);
+    if (d.px > best.px) best = d;
   }
   return best;
+}
+
+RegionDistance face_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight) {
+  return disc_distance(stone, eye, sight, 0.0);
 }
 
 // In coordinates in which the ellipsoid is a ball of radius 1, the distance of the line of sight from its middle.
@@ -51,7 +61,7 @@ RegionDistance body_distance(const StonePlace& stone, const Eigen::Vector3d& eye
   d.outward = px_per_unit * gradient;
   d.by << px_per_unit * normal.x() / radius, px_per_unit * normal.y() / radius, 0.0,
       px_per_unit * nearest.head<2>().squaredNorm() / (distance * radius),
-      px_per_unit * normal.z() * (eye.z() - way) / (half * half);
+      px_per_unit * normal.z() * (eye.z() - way) / (half * half), 0.0, 0.0;
   d.height = normal.z();
   return d;
 }
