@@ -16,6 +16,7 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
+constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 
 StoneFitOptions quick_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
 
@@ -72,7 +73,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
     if (s.doubt.empty()) seen.stones.push_back(impl_->sighting(s));
-    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.doubt});
+    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
@@ -102,13 +103,27 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
   return area;
 }
 
-// Each by itself: what is no stone does not look like one in any light.
+// Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:
+// with the stones that are known by now left out of the picture.
 std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
                                                    const std::vector<StoneCandidate>& candidates) const {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
     const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
     stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0])});
+  }
+  StoneFitOptions behind = quick_look();
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) behind.nearer.push_back(s.fit.place);
+  }
+  const Eigen::Vector2d eye = camera.eMc().translation().head<2>();
+  for (JudgedStone& s : stones) {
+    const auto hides = [&](const Eigen::Vector2d& other) {
+      return (other - eye).norm() < (s.candidate.place - eye).norm() && (other - s.candidate.place).norm() < hiding_m;
+    };
+    if (s.doubt.empty() || !std::any_of(behind.nearer.begin(), behind.nearer.end(), hides)) continue;
+    s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, behind).stones[0];
+    s.doubt = doubt_of(s.candidate, s.fit);
   }
   return stones;
 }

@@ -9,6 +9,7 @@
 #include "vision/camera_setup.hpp"
 #include "vision/detect/stone_team.hpp"
 #include "vision/detect/stone_vote.hpp"
+#include "vision/fit/stone_fit.hpp"
 #include "vision/geometry/stone_shape.hpp"
 #include "vision/percepts/stones.hpp"
 
@@ -25,6 +26,7 @@ struct StonesSketch {
   std::vector<cv::Rect> boxes;
   struct Candidate {
     StoneCandidate votes;
+    FittedStone fit;
     std::string doubt;  ///< empty: a stone; else why it is none
   };
   std::vector<Candidate> candidates;

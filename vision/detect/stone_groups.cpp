@@ -12,11 +12,12 @@ namespace {
 
 constexpr double range_m = 13.0;        // from the body: the hog line and a little more
 constexpr double grip_height_m = 0.07;  // over the handle's rim
-constexpr float darkest = 0.04F;        // of granite, against ice
+constexpr float darkest = 0.09F;        // of granite, against ice
 constexpr float lightest = 0.62F;
-constexpr float least_neutral = 0.08F;  // spread of the channels that noise alone makes
-constexpr float most_coloured = 0.30F;  // spread of the channels as a share of the brightest
-constexpr double least_granite = 0.30;  // share of the body below a handle; nearer stones may hide the rest
+constexpr float least_neutral = 0.03F;       // spread of the channels that noise alone makes
+constexpr float most_coloured = 0.38F;       // spread of the channels as a share of the brightest
+constexpr double least_granite = 0.20;       // share of the body below a handle; nearer stones may hide the rest
+constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
 constexpr float margin_px = 4.0F;
 
 // Overlapping boxes become one, until none overlap.
@@ -36,6 +37,19 @@ std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
     }
   }
   return boxes;
+}
+
+// Of a rectangle about (x, y): `side` to the left and right, from `above` to `below`.
+double granite_share(const cv::Mat& sums, int x, int y, float side, float above, float below) {
+  const int x0 = std::clamp(x - static_cast<int>(side), 0, sums.cols - 1);
+  const int x1 = std::clamp(x + static_cast<int>(side) + 1, 0, sums.cols - 1);
+  const int y0 = std::clamp(y + static_cast<int>(above), 0, sums.rows - 1);
+  const int y1 = std::clamp(y + static_cast<int>(below) + 1, 0, sums.rows - 1);
+  const int area = (x1 - x0) * (y1 - y0);
+  if (area <= 0) return 0.0;
+  const int* upper = sums.ptr<int>(y0);
+  const int* lower = sums.ptr<int>(y1);
+  return static_cast<double>(lower[x1] - lower[x0] - upper[x1] + upper[x0]) / area;
 }
 
 }  // namespace
@@ -73,6 +87,8 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
   e.granite_top = static_cast<float>(begin->y() - pixel.y());
   e.below = static_cast<float>(foot->y() - pixel.y());
   e.granite_bottom = e.granite_top + 0.85F * (e.below - e.granite_top);
+  e.handle_side = 0.4F * e.half_width;
+  e.handle_depth = 0.5F * e.granite_top;
   e.above = static_cast<float>(grip->y() - pixel.y());
   return e;
 }
@@ -120,16 +136,11 @@ cv::Mat StoneGroupFinder::possible_centres(const cv::Mat& granite) const {
     for (int c = 0; c < granite.cols; ++c) {
       const Extent& e = extent(2 * c, top_ + 2 * r);
       if (!e.seen) continue;
-      const int x0 = std::clamp(c - static_cast<int>(0.5F * e.side), 0, granite.cols);
-      const int x1 = std::clamp(c + static_cast<int>(0.5F * e.side) + 1, 0, granite.cols);
-      const int y0 = std::clamp(r + static_cast<int>(0.5F * e.granite_top), 0, granite.rows);
-      const int y1 = std::clamp(r + static_cast<int>(0.5F * e.granite_bottom) + 1, 0, granite.rows);
-      const int area = (x1 - x0) * (y1 - y0);
-      if (area <= 0) continue;
-      const int* upper = sums.ptr<int>(y0);
-      const int* lower = sums.ptr<int>(y1);
-      const int found = lower[x1] - lower[x0] - upper[x1] + upper[x0];
-      if (found >= least_granite * area) out[c] = 255;
+      const double body = granite_share(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
+      if (body < least_granite) continue;
+      const double handle =
+          granite_share(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
+      if (handle <= most_handle_granite) out[c] = 255;
     }
   }
   return centres;

@@ -39,6 +39,8 @@ class StoneGroupFinder {
     float side = 0.0F;         ///< half the width of the granite that must be there
     float granite_top = 0.0F;  ///< from the handle down
     float granite_bottom = 0.0F;
+    float handle_side = 0.0F;  ///< of a part of the handle's face
+    float handle_depth = 0.0F;
     float half_width = 0.0F;  ///< of the whole stone
     float above = 0.0F;       ///< the grip's top
     float below = 0.0F;       ///< the body's foot

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <memory>
 #include <numbers>
+
+#include "vision/detect/edge_field.hpp"
 
 namespace hogline::vision {
 namespace {
 
 constexpr int block_px = 16;
-constexpr float full_vote = 0.22F;  // gradient, all channels, of a step of about half the light of ice
-constexpr float noise_floor = 0.05F;
+constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is searched in steps of two pixels
+constexpr float big_y_px = 6.0F;
 constexpr double removal_m = 0.23;  // stones stand 0.29 m apart; votes are good to a pixel
 constexpr double handle_share = 0.55;
 
@@ -26,6 +28,8 @@ struct Outline {
   std::vector<Mark> far_rim;
   std::vector<std::array<Mark, 3>> near_edge;
   std::vector<Mark> body;
+  bool big_x = false;
+  bool big_y = false;
   float removal_x = 0.0F;
   float removal_y = 0.0F;
 };
@@ -71,6 +75,9 @@ class OutlineMaker {
     if (!right || !away) return Outline{};
     outline.removal_x = static_cast<float>((*right - pixel).norm());
     outline.removal_y = std::max(2.0F, static_cast<float>((*away - pixel).norm()));
+    const auto part = static_cast<float>(shape_.handle_radius_m / removal_m);
+    outline.big_x = part * outline.removal_x > big_x_px;
+    outline.big_y = part * outline.removal_y > big_y_px;
     return outline;
   }
 
@@ -99,7 +106,7 @@ struct Votes {
   }
 };
 
-Votes votes_for(const EdgeField& field, const Outline& outline, float x, float y) {
+Votes votes_for(EdgeField& field, const Outline& outline, float x, float y) {
   Votes votes;
   for (const Mark& m : outline.far_rim) votes.handle += field.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
   for (const auto& marks : outline.near_edge) {
@@ -113,141 +120,97 @@ Votes votes_for(const EdgeField& field, const Outline& outline, float x, float y
   return votes;
 }
 
-/// The votes of one box.
-class Accumulator {
- public:
-  Accumulator(const EdgeField& field, const StoneGroups& groups, const OutlineMaker& maker) : area_(field.area()) {
-    votes_.resize(static_cast<std::size_t>(area_.area()));
-    for (int y = area_.y; y < area_.br().y; ++y) {
-      const int row = (y - groups.top) / 2;
-      if (y < groups.top || row >= groups.centres.rows) continue;
-      const std::uint8_t* possible = groups.centres.ptr<std::uint8_t>(row);
-      for (int x = area_.x; x < area_.br().x; ++x) {
-        if (possible[std::min(x / 2, groups.centres.cols - 1)] == 0) continue;
-        const Outline& outline = outline_at(x, y, maker);
-        if (outline.seen) at(x, y) = votes_for(field, outline, static_cast<float>(x), static_cast<float>(y));
-      }
-    }
-  }
+/// A place of the picture and its votes.
+struct Ballot {
+  int x, y;
+  Votes votes;
+  const Outline* outline;
+};
 
-  void take_peaks(const SheetCamera& camera, const StoneShape& shape, const OutlineMaker& maker, double least,
-                  std::vector<StoneCandidate>& candidates) {
-    while (true) {
-      int best_x = 0;
-      int best_y = 0;
-      float best = static_cast<float>(least);
-      for (int y = area_.y; y < area_.br().y; ++y) {
-        for (int x = area_.x; x < area_.br().x; ++x) {
-          if (at(x, y).all() <= best) continue;
-          best = at(x, y).all();
-          best_x = x;
-          best_y = y;
-        }
-      }
-      if (!(best > static_cast<float>(least))) return;
-      const Eigen::Vector2d pixel(best_x, best_y);
-      const Votes& votes = at(best_x, best_y);
-      if (const auto place = camera.plane_at(pixel, shape.handle_height_m)) {
-        candidates.push_back({*place, pixel, votes.all(), votes.handle, votes.body});
-      }
-      remove_around(best_x, best_y, outline_at(best_x, best_y, maker));
+/// Outlines change slowly over the picture: one for each block, made when it is first asked for.
+class OutlineTable {
+ public:
+  OutlineTable(const OutlineMaker& maker, cv::Size picture)
+      : maker_(maker),
+        columns_(picture.width / block_px + 1),
+        outlines_(static_cast<std::size_t>(columns_ * (picture.height / block_px + 1))) {}
+
+  const Outline& at(int x, int y) {
+    auto& outline = outlines_[static_cast<std::size_t>(y / block_px * columns_ + x / block_px)];
+    if (!outline) {
+      outline =
+          std::make_unique<Outline>(maker_.at({(x / block_px + 0.5) * block_px, (y / block_px + 0.5) * block_px}));
     }
+    return *outline;
   }
 
  private:
-  Votes& at(int x, int y) { return votes_[static_cast<std::size_t>((y - area_.y) * area_.width + x - area_.x)]; }
-
-  const Outline& outline_at(int x, int y, const OutlineMaker& maker) {
-    const int key = (y / block_px) * 4096 + x / block_px;
-    const auto known = outlines_.find(key);
-    if (known != outlines_.end()) return known->second;
-    const Eigen::Vector2d middle((x / block_px + 0.5) * block_px, (y / block_px + 0.5) * block_px);
-    return outlines_.emplace(key, maker.at(middle)).first->second;
-  }
-
-  void remove_around(int x, int y, const Outline& outline) {
-    const auto wide = static_cast<int>(outline.removal_x);
-    const auto high = static_cast<int>(outline.removal_y);
-    for (int v = std::max(area_.y, y - high); v <= std::min(area_.br().y - 1, y + high); ++v) {
-      for (int u = std::max(area_.x, x - wide); u <= std::min(area_.br().x - 1, x + wide); ++u) {
-        const float dx = static_cast<float>(u - x) / outline.removal_x;
-        const float dy = static_cast<float>(v - y) / outline.removal_y;
-        if (dx * dx + dy * dy <= 1.0F) at(u, v) = {};
-      }
-    }
-  }
-
-  cv::Rect area_;
-  std::vector<Votes> votes_;
-  std::map<int, Outline> outlines_;
+  const OutlineMaker& maker_;
+  int columns_;
+  std::vector<std::unique_ptr<Outline>> outlines_;
 };
 
-}  // namespace
-
-EdgeField::EdgeField(const cv::Mat& bgr, const cv::Rect& area, const IceLight& ice, const ResponseCurve& response)
-    : area_(area), gradient_(static_cast<std::size_t>(area.area())) {
-  // One level of light per channel for the whole box: against it every level's square root is tabulated.
-  const auto white = ice.at(area.x + 0.5 * area.width, area.y + 0.5 * area.height);
-  std::array<std::array<float, 256>, 3> root{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 256; ++i) {
-      root[k][i] = std::sqrt(std::min(1.5F, response.linear(static_cast<std::uint8_t>(i)) / white[k]));
-    }
-  }
-  // Binomial over three rows, then differences over three columns, and the other way round.
-  const auto n = static_cast<std::size_t>(area.width);
-  std::array<std::vector<float>, 3> rows;
-  for (auto& row : rows) row.resize(3 * n);
-  const auto load = [&](int y, std::vector<float>& row) {
-    const std::uint8_t* in = bgr.ptr<std::uint8_t>(std::clamp(y, 0, bgr.rows - 1)) + 3 * area.x;
-    for (std::size_t i = 0; i < 3 * n; ++i) row[i] = root[i % 3][in[i]];
-  };
-  load(area.y - 1, rows[0]);
-  load(area.y, rows[1]);
-  for (int y = 0; y < area.height; ++y) {
-    const std::vector<float>& a = rows[static_cast<std::size_t>(y % 3)];
-    const std::vector<float>& b = rows[static_cast<std::size_t>((y + 1) % 3)];
-    std::vector<float>& c = rows[static_cast<std::size_t>((y + 2) % 3)];
-    load(area.y + y + 1, c);
-    for (std::size_t x = 1; x + 1 < n; ++x) {
-      Gradient& g = gradient_[static_cast<std::size_t>(y) * n + x];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = 3 * x + k;
-        const auto smooth = [&](std::size_t j) { return a[j] + 2.0F * b[j] + c[j]; };
-        g.x[k] = 0.125F * (smooth(i + 3) - smooth(i - 3));
-        g.y[k] = 0.125F * (c[i - 3] + 2.0F * c[i] + c[i + 3] - a[i - 3] - 2.0F * a[i] - a[i + 3]);
+// Every place where a handle may be; where stones are big every second one in both directions.
+std::vector<Ballot> all_ballots(const StoneGroups& groups, EdgeField& field, OutlineTable& outlines, float least) {
+  std::vector<Ballot> ballots;
+  for (int r = 0; r < groups.centres.rows; ++r) {
+    const std::uint8_t* possible = groups.centres.ptr<std::uint8_t>(r);
+    for (int c = 0; c < groups.centres.cols; ++c) {
+      if (possible[c] == 0) continue;
+      const Outline& outline = outlines.at(2 * c, groups.top + 2 * r);
+      if (!outline.seen) continue;
+      for (int y = groups.top + 2 * r; y < groups.top + 2 * r + (outline.big_y ? 1 : 2); ++y) {
+        for (int x = 2 * c; x < 2 * c + (outline.big_x ? 1 : 2); ++x) {
+          const Votes votes = votes_for(field, outline, static_cast<float>(x), static_cast<float>(y));
+          if (votes.all() > least) ballots.push_back({x, y, votes, &outline});
+        }
       }
     }
   }
+  std::sort(ballots.begin(), ballots.end(),
+            [](const Ballot& a, const Ballot& b) { return a.votes.all() > b.votes.all(); });
+  return ballots;
 }
 
-float EdgeField::edge(float x, float y, float normal_x, float normal_y) const {
-  const int column = static_cast<int>(std::lround(x)) - area_.x;
-  const int row = static_cast<int>(std::lround(y)) - area_.y;
-  if (column < 0 || row < 0 || column >= area_.width || row >= area_.height) return 0.0F;
-  const Gradient& g = gradient_[static_cast<std::size_t>(row * area_.width + column)];
-  float across = 0.0F;
-  float along = 0.0F;
-  for (std::size_t k = 0; k < 3; ++k) {
-    across += std::abs(g.x[k] * normal_x + g.y[k] * normal_y);
-    along += std::abs(g.y[k] * normal_x - g.x[k] * normal_y);
+Ballot best_near(const Ballot& peak, EdgeField& field) {
+  Ballot best = peak;
+  for (int y = peak.y - 1; y <= peak.y + 1; ++y) {
+    for (int x = peak.x - 1; x <= peak.x + 1; ++x) {
+      const Votes votes = votes_for(field, *peak.outline, static_cast<float>(x), static_cast<float>(y));
+      if (votes.all() > best.votes.all()) best = {x, y, votes, peak.outline};
+    }
   }
-  return std::clamp((across - 0.5F * along - noise_floor) / full_vote, 0.0F, 1.0F);
+  return best;
 }
+
+bool removed_by(const Ballot& peak, const Ballot& other) {
+  const float dx = static_cast<float>(other.x - peak.x) / peak.outline->removal_x;
+  const float dy = static_cast<float>(other.y - peak.y) / peak.outline->removal_y;
+  return dx * dx + dy * dy <= 1.0F;
+}
+
+}  // namespace
 
 std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const IceLight& ice,
                                             const ResponseCurve& response, const SheetCamera& camera,
                                             const StoneShape& shape, const StoneVoteOptions& options) {
-  std::vector<StoneCandidate> candidates;
   const OutlineMaker maker(camera, shape, options.area);
-  for (const cv::Rect& box : groups.boxes) {
-    const EdgeField field(bgr, box, ice, response);
-    Accumulator votes(field, groups, maker);
-    votes.take_peaks(camera, shape, maker, options.least_votes, candidates);
+  OutlineTable outlines(maker, bgr.size());
+  EdgeField field(bgr, ice, response);
+  const float floor = static_cast<float>(options.least_votes) - 0.08F;  // a neighbouring pixel may have more
+
+  std::vector<Ballot> peaks;
+  std::vector<StoneCandidate> candidates;
+  for (const Ballot& ballot : all_ballots(groups, field, outlines, floor)) {
+    if (candidates.size() >= options.most_candidates) break;
+    if (std::any_of(peaks.begin(), peaks.end(), [&](const Ballot& p) { return removed_by(p, ballot); })) continue;
+    const Ballot peak = best_near(ballot, field);
+    peaks.push_back(peak);
+    const Eigen::Vector2d pixel(peak.x, peak.y);
+    const auto place = camera.plane_at(pixel, shape.handle_height_m);
+    if (!place || peak.votes.all() < static_cast<float>(options.least_votes)) continue;
+    candidates.push_back({*place, pixel, peak.votes.all(), peak.votes.handle, peak.votes.body});
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const StoneCandidate& a, const StoneCandidate& b) { return a.votes > b.votes; });
-  if (candidates.size() > options.most_candidates) candidates.resize(options.most_candidates);
   return candidates;
 }
 

@@ -23,25 +23,6 @@ struct StoneCandidate {
   double body_votes = 0.0;
 };
 
-/// A picture's light against white ice, its square root (so that noise is the same everywhere), and its gradient.
-class EdgeField {
- public:
-  /// One rectangle of the picture. Precondition: CV_8UC3, `area` within it.
-  EdgeField(const cv::Mat& bgr, const cv::Rect& area, const IceLight& ice, const ResponseCurve& response);
-
-  const cv::Rect& area() const { return area_; }
-  /// How much of an edge with this normal stands at a pixel, 0..1.
-  float edge(float x, float y, float normal_x, float normal_y) const;
-
- private:
-  struct Gradient {
-    std::array<float, 3> x{};
-    std::array<float, 3> y{};
-  };
-  cv::Rect area_;
-  std::vector<Gradient> gradient_;
-};
-
 /// Where on the sheet stones are looked for, in e.
 struct StoneArea {
   double half_width_m = 2.7;

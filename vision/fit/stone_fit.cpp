@@ -10,8 +10,6 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double neighbour_m = 2.5;  // farther stones hide nothing of each other
-
 // What the rules, clubs' stones and cameras leave open, about the values of StoneShape and SharedLook.
 constexpr double thickness_sigma_m = 0.008;
 constexpr double radius_sigma_m = 0.0025;
@@ -118,10 +116,9 @@ class JointFit {
     for (StoneModel& s : stones_) s.look_behind(look_);
     for (StoneModel& s : stones_) {
       for (const StoneModel& other : stones_) {
-        if (&other != &s && other.range_m() < s.range_m() && (other.place() - s.place()).norm() < neighbour_m) {
-          s.hide_behind(other, look_);
-        }
+        if (&other != &s) s.hide_behind(other.place(), look_);
       }
+      for (const Eigen::Vector2d& nearer : options_.nearer) s.hide_behind(nearer, look_);
     }
   }
 

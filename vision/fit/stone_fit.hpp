@@ -35,7 +35,8 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 6;
   bool fit_shape = true;
-  std::size_t pixels = 500;  ///< about so many of each stone
+  std::size_t pixels = 500;                  ///< about so many of each stone
+  std::vector<Eigen::Vector2d> nearer = {};  ///< stones known already, which may hide parts of these
 };
 
 /// `starts` within about a pixel and a half of the truth.

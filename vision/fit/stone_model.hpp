@@ -42,7 +42,7 @@ class StoneModel {
   /// What the stone hides, from what is seen beside it; with the handle's colour known, its grip is left out, too.
   void look_behind(const SharedLook& look);
   /// Leaves out the pixels that a nearer stone covers.
-  void hide_behind(const StoneModel& nearer, const SharedLook& look);
+  void hide_behind(const Eigen::Vector2d& nearer, const SharedLook& look);
 
   /// The colours that explain the pixels best where the stone now is: linear least squares.
   void find_colours(const SharedLook& look);
