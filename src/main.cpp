@@ -33,13 +33,15 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
   pose->add_option("--camera", options.camera, "which camera of the rig took the pictures")
       ->required()
       ->check(CLI::IsMember({"near", "low"}));
-  pose->add_flag("--sequence", options.sequence, "the pictures are consecutive frames of one run (low camera)");
+  pose->add_flag("--sequence", options.sequence,
+                 "the pictures are consecutive frames: each is predicted from those before");
   pose->add_option("--rate", options.rate_hz, "frames a second of the sequence")->capture_default_str();
   pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
   pose->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
   pose->footer(
       "Examples:\n"
       "  hogline pose --rig rig.yaml --camera near frame.jpg\n"
+      "  hogline pose --rig rig.yaml --camera near --sequence --rate 60 turn-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return pose;

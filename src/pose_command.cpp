@@ -5,6 +5,11 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+<<<<<<< HEAD
+=======
+#include <optional>
+#include <stdexcept>
+>>>>>>> main
 
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
@@ -14,6 +19,7 @@
 #include "src/pictures.hpp"
 #include "vision/low_sequence.hpp"
 #include "vision/low_view.hpp"
+#include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
 
 namespace hogline {
@@ -42,7 +48,17 @@ Estimator low_estimator(const vision::CameraSetup& setup) {
   };
 }
 
-Estimator sequence_estimator(const vision::CameraSetup& setup) {
+Estimator near_sequence_estimator(const vision::CameraSetup& setup) {
+  return [view = std::make_shared<vision::NearSequence>(setup)](const cv::Mat& image, Stamp stamp, cv::Mat* drawing) {
+    if (drawing == nullptr) return view->step(image, stamp);
+    vision::NearViewSketch sketch;
+    const SheetPosePercept percept = view->step(image, stamp, std::nullopt, &sketch);
+    *drawing = drawing::draw_near_view(image, percept, sketch);
+    return percept;
+  };
+}
+
+Estimator low_sequence_estimator(const vision::CameraSetup& setup) {
   return [view = std::make_shared<vision::LowSequence>(setup)](const cv::Mat& image, Stamp stamp, cv::Mat* drawing) {
     const SheetPosePercept percept = view->step(image, stamp);
     if (drawing != nullptr) *drawing = drawing::draw_low_view(image, percept, {});
@@ -51,14 +67,11 @@ Estimator sequence_estimator(const vision::CameraSetup& setup) {
 }
 
 Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup) {
-  if (options.camera == "near") return near_estimator(setup);
-  return options.sequence ? sequence_estimator(setup) : low_estimator(setup);
+  if (options.camera == "near") return options.sequence ? near_sequence_estimator(setup) : near_estimator(setup);
+  return options.sequence ? low_sequence_estimator(setup) : low_estimator(setup);
 }
 
 void check_use(const PoseOptions& options) {
-  if (options.sequence && options.camera != "low") {
-    throw config::ConfigError("command line", 0, "--sequence", "", "goes with --camera low only");
-  }
   if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
                               "must be above 0, at most 1000 frames a second");

@@ -13,6 +13,7 @@
 #include "vision/detect/ring_ellipse.hpp"
 #include "vision/detect/ring_vote.hpp"
 #include "vision/fit/sheet_fit.hpp"
+#include "vision/fit_percept.hpp"
 #include "vision/near_view_sketch.hpp"
 
 namespace hogline::vision {
@@ -179,21 +180,9 @@ std::string NearView::Impl::doubt(const SheetFitResult& result) const {
 
 SheetPosePercept NearView::Impl::percept(const SheetFitResult& result, const std::string& origin, Stamp stamp) const {
   SheetPosePercept p;
-  p.ok = true;
   p.stamp = stamp;
-  p.body = result.body;
-  p.sigma = result.sigma;
-  p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
-  p.hog_distance_sigma_m = result.hog_distance_sigma_m;
-  p.sheet_width_m = result.sheet_width_m;
-  p.eMc = row_major(result.eMc);
-  p.residual_px = result.residual_px;
-  p.sites_used = result.sites_used;
-  p.sites_tried = result.sites_tried;
   p.features.push_back(origin);
-  for (const FittedFeature& f : result.features) {
-    if (f.sites_used > 0) p.features.push_back(f.name);
-  }
+  fill_percept(result, p);
   return p;
 }
 

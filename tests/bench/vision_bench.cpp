@@ -2,11 +2,15 @@
 #include <benchmark/benchmark.h>
 #include <gsl/gsl_errno.h>
 
+#include <cmath>
 #include <numbers>
 #include <opencv2/core/utility.hpp>
+#include <vector>
 
+#include "tests/support/turning_sequence.hpp"
 #include "tests/vision/scene.hpp"
 #include "vision/fit/sheet_fit.hpp"
+#include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
 
 namespace hogline::vision {
@@ -45,10 +49,36 @@ void near_fit(benchmark::State& state, const char* name) {
   state.counters["yaw_error_mdeg"] = 1000.0 * yaw_error_deg;
 }
 
+// A frame of a robot that turns at 20 deg/s, to and fro: eight frames are drawn, so that each comes from memory anew.
+void near_track(benchmark::State& state) {
+  const hogline::testing::TurningSequence sequence(hogline::testing::turning_move());
+  std::vector<hogline::testing::TurningFrame> frames;
+  for (int k = 24; k < 32; ++k) frames.push_back(sequence.frame(k));
+  NearSequence near(sequence.setup());
+  Stamp stamp{};
+  near.step(frames[0].bgr, stamp);
+  double square_deg2 = 0.0;
+  std::size_t at = 0;
+  bool forward = true;
+  for (auto _ : state) {
+    const std::size_t before = at;
+    forward = at == 0 || (forward && at + 1 < frames.size());
+    at += forward ? 1 : -1;
+    stamp += from_seconds(1.0 / 60.0);
+    const double turned_rad = frames[at].body.yaw_rad - frames[before].body.yaw_rad;
+    const SheetPosePercept& p = near.step(frames[at].bgr, stamp, turned_rad);
+    if (!near.diagnosis().tracked) state.SkipWithError(near.diagnosis().lost.c_str());
+    const double error_deg = (p.body.yaw_rad - frames[at].body.yaw_rad) / degree;
+    square_deg2 += error_deg * error_deg;
+  }
+  state.counters["yaw_rms_mdeg"] = 1000.0 * std::sqrt(square_deg2 / static_cast<double>(state.iterations()));
+}
+
 BENCHMARK_CAPTURE(near_acquire, plain, "near/near-11-000")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near_acquire, no_sidelines, "near/near-11-003")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near_acquire, stones, "skip/skip-12-002")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near_fit, plain, "near/near-11-000")->Unit(benchmark::kMillisecond);
+BENCHMARK(near_track)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace hogline::vision

@@ -101,6 +101,13 @@ class Pose(unittest.TestCase):
         self.assertEqual(len(lines[0]["eMc"]), 16)
         self.assertIsNone(lines[0]["reason"])
 
+    def test_tracks_the_frames_of_a_sequence(self):
+        result = run("pose", "--rig", RIG, "--camera", "near", "--sequence", "--rate", "60", SCENE, SCENE, SCENE)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([line["features"][0] for line in lines], ["acquired", "tracked", "tracked"])
+        self.assertAlmostEqual(lines[0]["yaw_deg"], lines[2]["yaw_deg"], delta=0.005)
+
     def test_a_picture_of_another_size_is_not_estimated(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(RIG, encoding="utf-8") as f:

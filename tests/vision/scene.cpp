@@ -49,8 +49,9 @@ SidelineKind kind_of(const std::string& name) {
 
 }  // namespace
 
-Scene load_scene(const std::string& name) {
-  const std::string base = std::string(HOGLINE_TEST_DATA) + "/" + name;
+Scene load_scene(const std::string& name) { return load_scene_file(std::string(HOGLINE_TEST_DATA) + "/" + name); }
+
+Scene load_scene_file(const std::string& base) {
   std::ifstream file(base + ".json");
   if (!file) throw std::runtime_error("no scene " + base);
   const json t = json::parse(file);

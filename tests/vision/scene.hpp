@@ -20,4 +20,7 @@ struct Scene {
 /// By its name under tests/data, such as "near/near-11-000". Throws std::runtime_error when it can not be read.
 Scene load_scene(const std::string& name);
 
+/// The same by a path without its extension.
+Scene load_scene_file(const std::string& base);
+
 }  // namespace hogline::vision::testing

@@ -109,34 +109,83 @@ constexpr int parameters = 5;  // background, slope, contrast, place, blur
 using Vector = Eigen::Matrix<double, parameters, 1>;
 using Matrix = Eigen::Matrix<double, parameters, parameters>;
 
+// The inverse of a symmetric positive matrix by Cholesky's factors: for five numbers three times as fast as Eigen's
+// general ones. Not finite when the matrix is not positive.
+Matrix inverse_of(const Matrix& a) {
+  Matrix lower = Matrix::Zero();  // first the factor, then its inverse
+  for (int j = 0; j < parameters; ++j) {
+    double pivot = a(j, j);
+    for (int k = 0; k < j; ++k) pivot -= lower(j, k) * lower(j, k);
+    lower(j, j) = std::sqrt(pivot);
+    for (int i = j + 1; i < parameters; ++i) {
+      double sum = a(i, j);
+      for (int k = 0; k < j; ++k) sum -= lower(i, k) * lower(j, k);
+      lower(i, j) = sum / lower(j, j);
+    }
+  }
+  for (int j = 0; j < parameters; ++j) {
+    lower(j, j) = 1.0 / lower(j, j);
+    for (int i = j + 1; i < parameters; ++i) {
+      double sum = 0.0;
+      for (int k = j; k < i; ++k) sum -= lower(i, k) * lower(k, j);
+      lower(i, j) = sum / lower(i, i);
+    }
+  }
+  return lower.transpose().lazyProduct(lower);
+}
+
 struct Fit {
   Vector p;
   Matrix normal;
   double residual2;
 };
 
+// The shape and its derivatives at every sample of the window, one array each: their sums of products become vector
+// code.
+struct Columns {
+  using Column = Eigen::Array<float, Profile::max_samples, 1>;
+  Column shape;
+  Column place;
+  Column blur;
+  Column along;
+  Column residual;
+};
+
+float product(const Columns::Column& a, const Columns::Column& b, int n) {
+  return a.head(n).matrix().dot(b.head(n).matrix());
+}
+
 // The normal equations of the joined light about the parameters.
 Fit linearise(const std::array<float, Profile::max_samples>& light, const Profile& profile, const Window& window,
-              const EdgeExpectation& expected, const Vector& p, Vector& gradient) {
-  Eigen::Matrix<float, parameters, parameters> gram = Eigen::Matrix<float, parameters, parameters>::Zero();
-  Eigen::Matrix<float, parameters, 1> rhs = Eigen::Matrix<float, parameters, 1>::Zero();
+              const EdgeExpectation& expected, const Vector& p, Columns& at, Vector& gradient) {
   const bool bar = expected.width_px > 0.0;
-  float residual2 = 0.0F;
   const Eigen::Matrix<float, parameters, 1> q = p.cast<float>();
-  for (int i = window.begin; i < window.end; ++i) {
-    const auto t = static_cast<float>(profile.position(i));
+  const int n = window.size();
+  for (int k = 0; k < n; ++k) {
+    const auto t = static_cast<float>(profile.position(window.begin + k));
     const ShapeAt s = shape(expected, t, q[3], q[4]);
     const float along = bar ? t - static_cast<float>(expected.offset_px) : 0.0F;
-    Eigen::Matrix<float, parameters, 1> row;
-    row << 1.0F, along, s.value, q[2] * s.by_place, q[2] * s.by_blur;
-    const float r = light[static_cast<std::size_t>(i)] - (q[0] + q[1] * along + q[2] * s.value);
-    gram.noalias() += row * row.transpose();
-    rhs += r * row;
-    residual2 += r * r;
+    at.along[k] = along;
+    at.shape[k] = s.value;
+    at.place[k] = q[2] * s.by_place;
+    at.blur[k] = q[2] * s.by_blur;
+    at.residual[k] = light[static_cast<std::size_t>(window.begin + k)] - (q[0] + q[1] * along + q[2] * s.value);
   }
-  if (!bar) gram(1, 1) = 1.0F;
-  gradient = rhs.cast<double>();
-  return {p, gram.cast<double>(), static_cast<double>(residual2)};
+  Fit fit{p, Matrix::Zero(), static_cast<double>(product(at.residual, at.residual, n))};
+  const std::array<const Columns::Column*, parameters> columns{nullptr, &at.along, &at.shape, &at.place, &at.blur};
+  fit.normal(0, 0) = n;
+  gradient[0] = static_cast<double>(at.residual.head(n).sum());
+  for (int i = 1; i < parameters; ++i) {
+    const Columns::Column& column = *columns[static_cast<std::size_t>(i)];
+    fit.normal(0, i) = fit.normal(i, 0) = static_cast<double>(column.head(n).sum());
+    gradient[i] = static_cast<double>(product(column, at.residual, n));
+    for (int j = 1; j <= i; ++j) {
+      const Columns::Column& other = *columns[static_cast<std::size_t>(j)];
+      fit.normal(i, j) = fit.normal(j, i) = static_cast<double>(product(column, other, n));
+    }
+  }
+  if (!bar) fit.normal(1, 1) = 1.0;
+  return fit;
 }
 
 constexpr double significant = 4.5;  // sigmas of the contrast
@@ -147,20 +196,22 @@ constexpr double most_blur_px = 12.0;
 Fit solve(const std::array<float, Profile::max_samples>& light, const Profile& profile, const Window& window,
           const EdgeExpectation& expected, Vector start) {
   constexpr int max_iterations = 8;
+  Columns columns;
   Vector gradient;
-  Fit best = linearise(light, profile, window, expected, start, gradient);
+  Fit best = linearise(light, profile, window, expected, start, columns, gradient);
   double damping = 1e-3;
   for (int i = 0; i < max_iterations; ++i) {
     Matrix damped = best.normal;
     damped.diagonal() *= 1.0 + damping;
     damped.diagonal().array() += 1e-9;
-    Vector step = damped.ldlt().solve(gradient);
+    Vector step = inverse_of(damped) * gradient;
+    if (!step.allFinite()) break;
     const double limit = std::max(1.0, expected.blur_px);
     if (std::abs(step[3]) > limit) step *= limit / std::abs(step[3]);
     Vector next = best.p + step;
     next[4] = std::clamp(next[4], least_blur_px, most_blur_px);
     Vector next_gradient;
-    const Fit tried = linearise(light, profile, window, expected, next, next_gradient);
+    const Fit tried = linearise(light, profile, window, expected, next, columns, next_gradient);
     if (tried.residual2 <= best.residual2) {
       best = tried;
       gradient = next_gradient;
@@ -169,7 +220,8 @@ Fit solve(const std::array<float, Profile::max_samples>& light, const Profile& p
       damping = std::max(10.0 * damping, 1e-2);
       continue;
     }
-    if (std::abs(step[3]) < 1e-3 && std::abs(step[4]) < 1e-2) break;
+    // The next step would be a tenth of this one at most.
+    if (std::abs(step[3]) < 4e-3 && std::abs(step[4]) < 3e-2) break;
   }
   return best;
 }
@@ -212,7 +264,7 @@ LocalEdge locate(const Profile& profile, const EdgeExpectation& expected) {
   // Samples closer than a pixel share their pixels' noise.
   const double shared = 1.0 / std::min(profile.step_px, 1.0);
   const Matrix regular = fit.normal + 1e-12 * Matrix::Identity();
-  const Matrix inverse = shared * regular.ldlt().solve(Matrix::Identity());
+  const Matrix inverse = shared * inverse_of(regular);
   edge.offset_px = fit.p[3];
   edge.contrast = fit.p[2];
   edge.blur_px = fit.p[4];

@@ -17,7 +17,9 @@ double tukey(double residual, double reach) {
 
 void add_square(const ParameterRow& row, double weight, ParameterMatrix& sum) {
   const ParameterRow weighted = weight * row;
-  for (int k = 0; k < parameter::count; ++k) sum.col(k) += weighted[k] * row.transpose();
+  for (int k = 0; k < parameter::count; ++k) {
+    if (weighted[k] != 0.0) sum.col(k) += weighted[k] * row.transpose();  // most sites know nothing of sidelines
+  }
 }
 
 double median(std::vector<double>& values) {
@@ -40,14 +42,12 @@ void reweigh(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasur
   scratch.clear();
   for (std::size_t i = 0; i < sites.size(); ++i) {
     step.residual_px[i] = found[i].found ? found[i].offset_px - sites[i].along.dot(step.change) : 0.0;
-    if (counts(sites[i], found[i], step))
-      scratch.push_back(std::abs(step.residual_px[i]) / spread_of(sites[i], found[i]));
+    if (counts(sites[i], found[i], step)) scratch.push_back(std::abs(step.residual_px[i]) / step.spread_px[i]);
   }
   step.scale = std::max(1.0, 1.4826 * median(scratch));
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    step.weight[i] = counts(sites[i], found[i], step)
-                         ? tukey(step.residual_px[i], 4.685 * step.scale * spread_of(sites[i], found[i]))
-                         : 0.0;
+    step.weight[i] =
+        counts(sites[i], found[i], step) ? tukey(step.residual_px[i], 4.685 * step.scale * step.spread_px[i]) : 0.0;
   }
 }
 
@@ -57,7 +57,7 @@ void solve(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurem
   ParameterVector pull = prior.pull;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (step.weight[i] <= 0.0) continue;
-    const double spread = step.scale * spread_of(sites[i], found[i]);
+    const double spread = step.scale * step.spread_px[i];
     const double w = step.weight[i] / (spread * spread);
     add_square(sites[i].along, w, step.information);
     pull += w * found[i].offset_px * sites[i].along.transpose();
@@ -204,20 +204,22 @@ void step_closely(const std::vector<PlannedSite>& sites, const std::vector<SiteM
   step.change.setZero();
   step.residual_px.assign(sites.size(), 0.0);
   step.weight.assign(sites.size(), 0.0);
+  step.spread_px.clear();
+  for (std::size_t i = 0; i < sites.size(); ++i) step.spread_px.push_back(spread_of(sites[i], found[i]));
   step.dropped.fill(false);
   iterate(sites, found, prior, step, scratch);
   for (int k = 0; k < 3 && drop_strangers(sites, found, step); ++k) iterate(sites, found, prior, step, scratch);
 }
 
-ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurement>& found,
-                              const CloseStep& step, const Prior& prior, double shared_px) {
+ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const CloseStep& step, const Prior& prior,
+                              double shared_px) {
   const ParameterMatrix inverse = step.information.ldlt().solve(ParameterMatrix::Identity());
   ParameterMatrix scatter = prior.information;
   ParameterVector stretch_pull = ParameterVector::Zero();
   ParameterVector feature_pull = ParameterVector::Zero();
   int stretches = 0;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    const double spread = step.scale * spread_of(sites[i], found[i]);
+    const double spread = step.scale * step.spread_px[i];
     const double w = step.weight[i] / (spread * spread);
     stretch_pull += w * step.residual_px[i] * sites[i].along.transpose();
     feature_pull += w * shared_px * sites[i].along.transpose();

@@ -43,6 +43,7 @@ struct CloseStep {
   ParameterMatrix information = ParameterMatrix::Zero();  ///< normal matrix with the prior
   std::vector<double> residual_px;                        ///< after the change; only of found sites
   std::vector<double> weight;                             ///< 0 to 1
+  std::vector<double> spread_px;                          ///< expected of each residual
   double scale = 1.0;                                     ///< robust spread of residual / sigma
   std::array<bool, paint_feature_count> dropped{};        ///< features that do not fit with the rest
 };
@@ -51,7 +52,7 @@ void step_closely(const std::vector<PlannedSite>& sites, const std::vector<SiteM
 
 /// Of the parameters: the scatter of what stretches of features pull, so that errors shared by neighbouring sites count
 /// as they should, plus `shared_px` of error common to each feature.
-ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurement>& found,
-                              const CloseStep& step, const Prior& prior, double shared_px);
+ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const CloseStep& step, const Prior& prior,
+                              double shared_px);
 
 }  // namespace hogline::vision

@@ -66,13 +66,17 @@ std::string SheetFit::Impl::unusable(const cv::Mat& image, const SheetFitStart& 
   return {};
 }
 
-void SheetFit::Impl::begin(const SheetFitStart& start) {
+void SheetFit::Impl::clear_result() {
   result.ok = false;
   result.reason.clear();
   result.sheet_width_m.reset();
   result.sites.clear();
   result.features.clear();
   result.sites_tried = result.sites_used = 0;
+}
+
+void SheetFit::Impl::begin(const SheetFitStart& start) {
+  clear_result();
   state = FitState{};
   state.eMc = start.eMc;
   state.paint_depth_m = setup.ice.paint_depth_m;

@@ -75,6 +75,7 @@ class SheetFit {
   const SheetFitResult& fit(const cv::Mat& image, const SheetFitStart& start);
 
  private:
+  friend class SheetTrack;  // follows what was fitted by the same steps
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

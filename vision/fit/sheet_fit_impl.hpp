@@ -1,4 +1,4 @@
-// The joint fit behind SheetFit: its state and its steps. For the two source files of SheetFit only.
+// The joint fit behind SheetFit: its state and its steps. For the source files of SheetFit and SheetTrack only.
 #pragma once
 
 #include <cmath>
@@ -23,6 +23,7 @@ struct SheetFit::Impl {
 
   std::string unusable(const cv::Mat& image, const SheetFitStart& start) const;
   SheetCamera camera() const { return {lens, state.eMc, Ice{state.paint_depth_m, setup.ice.refractive_index}}; }
+  void clear_result();
   void begin(const SheetFitStart& start);
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
@@ -38,6 +39,7 @@ struct SheetFit::Impl {
   void find_sidelines(const PictureLight& light, const SheetFitStart& start);
   void refine(const PictureLight& light, const SheetFitStart& start, double spacing_px, double search_px,
               int half_breadth);
+  Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
   void report_sites();

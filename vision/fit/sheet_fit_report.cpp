@@ -69,26 +69,32 @@ void SheetFit::Impl::report_sites() {
   result.residual_px = weights > 0.0 ? std::sqrt(square / weights) : 0.0;
 }
 
-void SheetFit::Impl::judge(const SheetFitStart& start) {
-  covariance = covariance_of(sites, found, step, prior(start), shared_error_px);
-  result.eMc = state.eMc;
-  result.covariance = covariance.topLeftCorner<6, 6>();
-  result.body = planar_body(state.eMc, setup.mount);
-  result.paint_depth_m = state.paint_depth_m;
-
-  // The body by the camera's twist: turning about the camera moves the body about it.
+// x, y and yaw of the body by the camera's twist: turning about the camera moves the body about it.
+Eigen::Matrix<double, 3, 6> SheetFit::Impl::body_by_twist() const {
   const Eigen::Matrix3d eRc = state.eMc.linear();
-  Eigen::Matrix<double, 3, 6> by_twist = Eigen::Matrix<double, 3, 6>::Zero();  // x, y, yaw
+  Eigen::Matrix<double, 3, 6> by_twist = Eigen::Matrix<double, 3, 6>::Zero();
   const Eigen::Matrix3d eRb = eRc * bRc.transpose();
   const double forward2 = eRb(0, 0) * eRb(0, 0) + eRb(1, 0) * eRb(1, 0);
   const Eigen::RowVector3d yaw_by_turn =
       (Eigen::RowVector3d(0.0, 0.0, 1.0) - eRb(2, 0) / forward2 * Eigen::RowVector3d(eRb(0, 0), eRb(1, 0), 0.0)) * eRc;
   by_twist.block<2, 3>(0, 0) = eRc.topRows<2>();
   by_twist.block<1, 3>(2, 3) = yaw_by_turn;
-  const double c = std::cos(result.body.yaw_rad);
-  const double s = std::sin(result.body.yaw_rad);
+  const double yaw_rad = planar_body(state.eMc, setup.mount).yaw_rad;
+  const double c = std::cos(yaw_rad);
+  const double s = std::sin(yaw_rad);
   by_twist.block<1, 3>(0, 3) = (c * setup.mount.x_m - s * setup.mount.y_m) * yaw_by_turn;
   by_twist.block<1, 3>(1, 3) = (s * setup.mount.x_m + c * setup.mount.y_m) * yaw_by_turn;
+  return by_twist;
+}
+
+void SheetFit::Impl::judge(const SheetFitStart& start) {
+  covariance = covariance_of(sites, step, prior(start), shared_error_px);
+  result.eMc = state.eMc;
+  result.covariance = covariance.topLeftCorner<6, 6>();
+  result.body = planar_body(state.eMc, setup.mount);
+  result.paint_depth_m = state.paint_depth_m;
+
+  const Eigen::Matrix<double, 3, 6> by_twist = body_by_twist();
   const Eigen::Matrix3d planar = by_twist * result.covariance * by_twist.transpose();
   result.sigma = {std::hypot(std::sqrt(planar(0, 0)), painted_sigma_m),
                   std::hypot(std::sqrt(planar(1, 1)), painted_sigma_m), std::sqrt(planar(2, 2))};

@@ -32,7 +32,8 @@ SiteMeasurement look_closely(const PictureLight& light, const PlannedSite& site,
   const Cut cut{site.pixel, site.normal, -half - before - search_px, half + after + search_px, step_px, breadth};
   if (!sample(light.picture, light.response, cut, profile)) return m;
 
-  EdgeExpectation expected{0.0, site.width_px, site.blur_px, before, after, search_px};
+  const double blur_px = site.seen_blur_px > 0.0 ? site.seen_blur_px : site.blur_px;
+  EdgeExpectation expected{0.0, site.width_px, blur_px, before, after, search_px};
   if (search_px > 1.5) {
     const Candidates seen =
         site.step ? find_steps(profile, site.blur_px) : find_ridges(profile, site.width_px, site.blur_px);

@@ -44,6 +44,44 @@ struct Curve {
   }
 };
 
+// Pixel, normal and derivatives of a place on a curve. False where the picture does not tell its direction.
+bool project(const Curve& curve, double u, const PaintProjection& seen, PlannedSite& site) {
+  const Eigen::Vector2d tangent = seen.by_paint * curve.direction(u);
+  const double speed = tangent.norm();
+  if (!(speed > 1e-6)) return false;
+  Eigen::Vector2d normal(-tangent.y() / speed, tangent.x() / speed);
+  if (normal.dot(seen.by_paint * curve.facing(u)) < 0.0) normal = -normal;
+  site.pixel = seen.pixel;
+  site.normal = normal;
+  site.along.setZero();
+  site.along.segment<6>(parameter::twist) = normal.transpose() * seen.by_pose;
+  site.along[parameter::depth] = normal.dot(seen.by_depth);
+  return true;
+}
+
+// A line seen as one: its middle between its edges at `first` and `second`, and its width.
+bool centre_on_band(const SheetCamera& camera, const Curve& first, const Curve& second, double u, PlannedSite& site) {
+  const auto p1 = camera.project_paint(first.at(u));
+  const auto p2 = camera.project_paint(second.at(u));
+  if (!p1 || !p2) return false;
+  const double t1 = site.normal.dot(*p1 - site.pixel);
+  const double t2 = site.normal.dot(*p2 - site.pixel);
+  site.width_px = std::abs(t2 - t1);
+  site.pixel += 0.5 * (t1 + t2) * site.normal;
+  return site.width_px >= least_width_px;
+}
+
+// How a sideline's own parameters move the site; `by_width` is its share of the paint's width.
+void move_by_sideline(const Curve& curve, const PaintProjection& seen, int edge_parameter, double by_width,
+                      bool moves_camera, PlannedSite& site) {
+  if (edge_parameter >= 0) {
+    const double by_x = curve.side * site.normal.dot(seen.by_paint.col(0));
+    site.along[edge_parameter] = by_x;
+    site.along[edge_parameter + 1] = by_width * by_x;
+  }
+  if (!moves_camera) site.along.segment<6>(parameter::twist).setZero();
+}
+
 struct Planner {
   const SheetCamera& camera;
   const SheetCamera& over_surface;  // without refraction, for what stands on the ice
@@ -56,23 +94,15 @@ struct Planner {
   // One site: what all kinds share. False when it can not be used.
   bool place(int feature, const Curve& curve, double u, const PaintProjection& seen, PlannedSite& site,
              Eigen::Vector2d& per_px) const {
-    const Eigen::Vector2d tangent = seen.by_paint * curve.direction(u);
-    const double speed = tangent.norm();
-    if (!(speed > 1e-6)) return false;
-    Eigen::Vector2d normal(-tangent.y() / speed, tangent.x() / speed);
-    if (normal.dot(seen.by_paint * curve.facing(u)) < 0.0) normal = -normal;
-
     site.feature = feature;
-    site.pixel = seen.pixel;
-    site.normal = normal;
-    site.along.setZero();
-    site.along.segment<6>(parameter::twist) = normal.transpose() * seen.by_pose;
-    site.along[parameter::depth] = normal.dot(seen.by_depth);
+    site.place = u;
+    if (!project(curve, u, seen, site)) return false;
+    const Eigen::Vector2d tangent(site.normal.y(), -site.normal.x());
     const Eigen::Matrix2d to_ground = seen.by_paint.inverse();
-    per_px = to_ground * normal;
-    const Eigen::Vector2d beside = to_ground * tangent / speed;
-    const double travelled_px = std::abs(normal.dot(seen.by_paint.col(1))) * plan.travel_m;
+    const double travelled_px = std::abs(site.normal.dot(seen.by_paint.col(1))) * plan.travel_m;
     site.blur_px = std::hypot(plan.optical_blur_px, travelled_px / std::sqrt(12.0));
+    per_px = to_ground * site.normal;
+    const Eigen::Vector2d beside = to_ground * tangent;
     const Room room = room_around({curve.at(u), per_px, beside}, feature, state, 1.0 + 2.0 * site.blur_px, 40.0);
     site.before_px = room.before_px;
     site.after_px = room.after_px;
@@ -140,29 +170,17 @@ struct Planner {
       site.stretch = stretch;
       const Curve first{shape, first_m, side};
       const Curve second{shape, second_m, side};
-      const auto p1 = camera.project_paint(first.at(u));
-      const auto p2 = camera.project_paint(second.at(u));
-      if (!p1 || !p2) return;
-      const double t1 = site.normal.dot(*p1 - seen.pixel);
-      const double t2 = site.normal.dot(*p2 - seen.pixel);
-      site.width_px = std::abs(t2 - t1);
-      if (site.width_px < least_width_px) return;
+      if (!centre_on_band(camera, first, second, u, site)) return;
       if (site.width_px > 7.0 * site.blur_px + 4.0) {
         edge(feature, first, u, stretch, edge_parameter, 0.0, moves_camera);
         edge(feature, second, u, stretch, edge_parameter, 1.0, moves_camera);
         return;
       }
       site.step = false;
-      site.pixel += 0.5 * (t1 + t2) * site.normal;
       site.before_px -= 0.5 * site.width_px;
       site.after_px -= 0.5 * site.width_px;
       if (std::min(site.before_px, site.after_px) < least_room_px(site.blur_px)) return;
-      if (edge_parameter >= 0) {
-        const double by_x = side * site.normal.dot(seen.by_paint.col(0));
-        site.along[edge_parameter] = by_x;
-        site.along[edge_parameter + 1] = 0.5 * by_x;
-      }
-      if (!moves_camera) site.along.segment<6>(parameter::twist).setZero();
+      move_by_sideline(middle, seen, edge_parameter, 0.5, moves_camera, site);
       sites.push_back(site);
     });
   }
@@ -177,12 +195,7 @@ struct Planner {
     if (!place(feature, curve, u, *seen, site, per_px)) return;
     site.stretch = stretch;
     site.sense = by_width > 0.0 ? -1 : 1;
-    if (edge_parameter >= 0) {
-      const double by_x = curve.side * site.normal.dot(seen->by_paint.col(0));
-      site.along[edge_parameter] = by_x;
-      site.along[edge_parameter + 1] = by_width * by_x;
-    }
-    if (!moves_camera) site.along.segment<6>(parameter::twist).setZero();
+    move_by_sideline(curve, *seen, edge_parameter, by_width, moves_camera, site);
     if (curve.on_surface) {
       site.floor_px = foot_floor_px;
       site.before_px = std::min(site.before_px, 1.5 * site.blur_px + 1.0);
@@ -223,6 +236,7 @@ void plan_sites(const SheetCamera& camera, const FitState& state, const SitePlan
   const Planner planner{camera, over_surface, state, plan, sites};
   const auto& features = paint_features();
   for (int i = 0; i < paint_feature_count; ++i) {
+    if (plan.only_feature >= 0 && i != plan.only_feature) continue;
     const PaintFeature& f = features[static_cast<std::size_t>(i)];
     switch (f.shape) {
       case PaintShape::ring:
@@ -239,6 +253,41 @@ void plan_sites(const SheetCamera& camera, const FitState& state, const SitePlan
         break;
     }
   }
+}
+
+void SiteCameras::move_to(const Pose& eMc) {
+  paint.move_to(eMc);
+  surface.move_to(eMc);
+}
+
+bool reproject(const SiteCameras& cameras, const FitState& state, PlannedSite& site) {
+  const PaintFeature& f = paint_features()[static_cast<std::size_t>(site.feature)];
+  const bool sideline = f.shape == PaintShape::sideline;
+  const Sideline& line = state.sidelines[f.begin_m < 0.0 ? 0 : 1];
+  Curve first{f.shape, f.begin_m, sideline ? f.begin_m : 1.0};
+  Curve second{f.shape, f.end_m, first.side};
+  if (sideline) {
+    first.fixed_m = first.side * line.edge_m;
+    second.fixed_m = first.side * (line.edge_m + line.paint_m);
+    first.on_surface = !line.is_line;
+  }
+  const bool band = f.shape != PaintShape::ring && !site.step;
+  const bool far_edge = f.shape != PaintShape::ring && site.step && site.sense < 0;
+  Curve curve = far_edge ? second : first;
+  if (band) curve.fixed_m = 0.5 * (first.fixed_m + second.fixed_m);
+
+  const SheetCamera& camera = curve.on_surface ? cameras.surface : cameras.paint;
+  const auto seen = camera.project_paint_with_jacobian(curve.at(site.place));
+  if (!seen || !camera.lens().in_picture(seen->pixel, border_px)) return false;
+  PlannedSite moved = site;
+  if (!project(curve, site.place, *seen, moved)) return false;
+  if (band && !centre_on_band(camera, first, second, site.place, moved)) return false;
+  if (sideline) {
+    const int edge_parameter = f.begin_m < 0.0 ? parameter::left_edge : parameter::right_edge;
+    move_by_sideline(curve, *seen, edge_parameter, band ? 0.5 : (far_edge ? 1.0 : 0.0), line.moves_camera, moved);
+  }
+  site = moved;
+  return true;
 }
 
 }  // namespace hogline::vision

@@ -44,7 +44,8 @@ SurfacePoint surface_point(const Eigen::Vector2d& paint, const Eigen::Vector3d& 
     t = refract(r / h, ice.refractive_index);
     const double step = (r + d * t.tangent - R) / (1.0 + d * t.derivative / h);
     r -= step;
-    if (std::abs(step) < 1e-14 * (1.0 + R)) break;
+    // What a step leaves is of its square: after one this small the rest is below 1e-15.
+    if (std::abs(step) < 1e-8 * (1.0 + R)) break;
   }
   t = refract(r / h, ice.refractive_index);
 

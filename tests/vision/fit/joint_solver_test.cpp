@@ -50,7 +50,7 @@ TEST(StepClosely, FindsTheChangeAmongOutliersAndStatesItsSigma) {
     CloseStep step;
     std::vector<double> scratch;
     step_closely(p.sites, p.found, loose(), step, scratch);
-    const ParameterMatrix covariance = covariance_of(p.sites, p.found, step, loose(), 0.0);
+    const ParameterMatrix covariance = covariance_of(p.sites, step, loose(), 0.0);
     for (int k = 0; k < parameter::count; ++k) {
       EXPECT_NEAR(step.change[k], p.truth[k], 5.0 * std::sqrt(covariance(k, k)));
       normalised2 += (step.change[k] - p.truth[k]) * (step.change[k] - p.truth[k]) / covariance(k, k);
