@@ -5,11 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-<<<<<<< HEAD
-=======
 #include <optional>
-#include <stdexcept>
->>>>>>> main
 
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
