@@ -36,7 +36,7 @@ struct StoneArea {
 
 struct StoneVoteOptions {
   StoneArea area;
-  double least_votes = 0.40;
+  double least_votes = 0.28;
   std::size_t most_candidates = 60;
 };
 
