@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
+#include "src/board_command.hpp"
 #include "src/config/config_error.hpp"
 #include "src/demo_command.hpp"
 #include "src/exit_status.hpp"
@@ -61,6 +62,19 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
   return stones;
 }
 
+CLI::App* add_board(CLI::App& app, hogline::BoardOptions& options) {
+  auto* board = app.add_subcommand("board", "what lies on the sheet under the rules, printed and drawn");
+  board->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")->required();
+  board->add_option("--out", options.out, "folder for the drawing");
+  board->add_option("IMAGE", options.images, "pictures of one robot that stands still; their stones are averaged")
+      ->required();
+  board->footer(
+      "Example:\n"
+      "  hogline board --rig rig.yaml --out out/board frame-*.jpg\n"
+      "Exit status: 0 seen, 1 not seen in any picture, 2 wrong use or configuration.");
+  return board;
+}
+
 void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
   app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
   app->add_option("--scenario", options.scenario,
@@ -105,11 +119,13 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   hogline::PoseOptions pose_options;
   hogline::StonesOptions stones_options;
+  hogline::BoardOptions board_options;
   hogline::ThrowOptions throw_options;
   hogline::ThrowOptions demo_options;
   demo_options.out = "out/demo";
   const auto* pose = add_pose(app, pose_options);
   const auto* stones = add_stones(app, stones_options);
+  const auto* board = add_board(app, board_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
   try {
@@ -119,6 +135,7 @@ int run(int argc, char** argv) {
   }
   if (*pose) return hogline::run_pose(pose_options);
   if (*stones) return hogline::run_stones(stones_options);
+  if (*board) return hogline::run_board(board_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;

@@ -35,7 +35,16 @@ void add_nothing(ordered_json& line) {
   }
 }
 
-const char* name_of(Team team) {
+ordered_json stone_json(const StoneSighting& s) {
+  return {{"x_m", s.x_m},
+          {"y_m", s.y_m},
+          {"team", team_name(s.team)},
+          {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))}};
+}
+
+}  // namespace
+
+const char* team_name(Team team) {
   switch (team) {
     case Team::first:
       return "red";
@@ -46,15 +55,6 @@ const char* name_of(Team team) {
   }
   return "unknown";
 }
-
-ordered_json stone_json(const StoneSighting& s) {
-  return {{"x_m", s.x_m},
-          {"y_m", s.y_m},
-          {"team", name_of(s.team)},
-          {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))}};
-}
-
-}  // namespace
 
 std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms) {
   ordered_json line;

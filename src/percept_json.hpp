@@ -8,6 +8,9 @@
 
 namespace hogline {
 
+/// red, yellow or unknown.
+const char* team_name(Team team);
+
 /// One line without its newline. Where the percept is not ok every estimate is null and `reason` says why.
 std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms);
 

@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 
-#include "src/config/rig.hpp"
+#include "src/drawing/board_picture.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
 #include "src/pictures.hpp"
+#include "src/stones_setup.hpp"
+#include "vision/board.hpp"
 #include "vision/near_view.hpp"
-#include "vision/stones.hpp"
 
 namespace hogline {
 namespace {
-
-vision::StonesSetup stones_setup(const config::Rig& rig) {
-  vision::StonesSetup setup;
-  setup.camera = rig.camera("near");
-  setup.shape.handle_radius_m = rig.stone.radius_m;
-  setup.shape.handle_height_m = rig.stone.height_m;
-  return setup;
-}
 
 StonesPercept not_seen(const std::string& reason) {
   StonesPercept percept;
@@ -36,22 +30,31 @@ int run_stones(const StonesOptions& options) {
   const vision::StonesSetup setup = stones_setup(rig);
   vision::NearView near_view(setup.camera);
   vision::StoneFinder finder(setup);
+  const vision::Lens lens(setup.camera.intrinsics);
 
   bool all_estimated = true;
   for (const std::string& path : options.images) {
     const hw::files::LoadedImage image = read_picture(path, setup.camera.intrinsics);
     const auto begin = std::chrono::steady_clock::now();
     StonesPercept percept;
+    vision::Pose eMc = vision::Pose::Identity();
+    std::optional<double> width_m;
     if (image.error) {
       percept = not_seen(image.error->what);
     } else {
       const SheetPosePercept sheet = near_view.acquire(image.bgr, {});
-      percept = sheet.ok ? finder.find(image.bgr, {}, vision::from_row_major(sheet.eMc), sheet.sheet_width_m)
-                         : not_seen("the sheet's pose: " + sheet.reason);
+      if (sheet.ok) eMc = vision::from_row_major(sheet.eMc);
+      width_m = sheet.sheet_width_m;
+      percept = sheet.ok ? finder.find(image.bgr, {}, eMc, width_m) : not_seen("the sheet's pose: " + sheet.reason);
     }
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", stones_line(path, percept, elapsed.count()));
     std::fflush(stdout);
+    if (!options.draw.empty() && percept.ok) {
+      const vision::SheetCamera camera(lens, eMc, setup.camera.ice);
+      save_drawing(options.draw, path,
+                   drawing::draw_stones(image.bgr, vision::judge(percept.stones, width_m), camera, setup.shape));
+    }
     all_estimated = all_estimated && percept.ok;
   }
   return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;

@@ -11,7 +11,7 @@ constexpr double lightest_granite = 0.44;
 constexpr double neutral_spread = 0.09;  // of the channels: noise and reflections
 constexpr double neutral_share = 0.30;
 constexpr double colourless = 0.35;  // share of the brightest channel that the channels of a grey differ by
-constexpr double faint = 0.12;  // difference of the channels, light against white ice
+constexpr double faint = 0.12;       // difference of the channels, light against white ice
 constexpr double most_votes = 0.60;  // more than chance gives: a handle without a colour needs them
 constexpr double least_handle_contrast = 0.15;
 constexpr double least_explained = 0.70;
@@ -38,7 +38,8 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit) {
   if (fit.handle_contrast < least_handle_contrast) return "no handle stands out";
   const double saturation = 1.0 - fit.handle.minCoeff() / std::max(1e-3, fit.handle.maxCoeff());
   const double spread_of_handle = fit.handle.maxCoeff() - fit.handle.minCoeff();
-  if ((saturation < colourless || spread_of_handle < faint) && candidate.votes < most_votes) return "a handle without colour, and few votes";
+  if ((saturation < colourless || spread_of_handle < faint) && candidate.votes < most_votes)
+    return "a handle without colour, and few votes";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};
