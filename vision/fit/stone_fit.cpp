@@ -16,6 +16,8 @@ constexpr double radius_sigma_m = 0.0025;
 constexpr double half_height_sigma_m = 0.004;
 constexpr double handle_height_sigma_m = 0.001;  // of a measurement on site, and of what "the rim" of a round edge is
 constexpr double handle_radius_sigma_m = 0.001;
+constexpr double correlated = 4.0;      // neighbouring pixels share their noise: colour mosaic, compression
+constexpr double rim_doubt_m = 0.0020;  // how high a rounded rim seems, against what was measured on site
 constexpr double wall_light_sigma = 0.15;
 constexpr double blur_sigma_px = 0.2;
 constexpr double colour_blur_sigma_px = 0.5;
@@ -108,7 +110,7 @@ class JointFit {
     }
     const Eigen::Matrix2d own = parts.own.inverse();
     const Eigen::Matrix<double, 2, shared_numbers> lever = own * parts.lever;
-    f.covariance = own + lever * shared_covariance * lever.transpose();
+    f.covariance = correlated * own + lever * shared_covariance * lever.transpose() + s.unknowable(rim_doubt_m);
     return f;
   }
 

@@ -94,6 +94,13 @@ void StoneModel::move(const Eigen::Vector2d& step) {
   place_ += step.norm() > most_step_m ? Eigen::Vector2d(step * (most_step_m / step.norm())) : step;
 }
 
+Eigen::Matrix2d StoneModel::unknowable(double height_sigma_m) const {
+  const Bearing bearing = bearing_of(place_, eye_);
+  const double along_m = height_sigma_m * bearing.range_m / std::max(0.1, eye_.z() - 0.1);
+  return along_m * along_m * bearing.away * bearing.away.transpose() +
+         0.25 * height_sigma_m * height_sigma_m * Eigen::Matrix2d::Identity();
+}
+
 void StoneModel::look_behind(const SharedLook& look) {
   vision::look_behind(source_, {place_, look.shape}, eye_, coloured_ ? handle_colour() : Light::Zero(), raw_);
   for (std::size_t i = 0; i < raw_.size(); ++i) pixels_[i].behind = to_parts * raw_[i].behind;

@@ -39,6 +39,9 @@ class StoneModel {
   double range_m() const { return (place_ - eye_.head<2>()).norm(); }
   void move(const Eigen::Vector2d& step);
 
+  /// Covariance of the place from a doubt of the rim's height, common to all stones: it grows along the line of sight.
+  Eigen::Matrix2d unknowable(double height_sigma_m) const;
+
   /// What the stone hides, from what is seen beside it; with the handle's colour known, its grip is left out, too.
   void look_behind(const SharedLook& look);
   /// Leaves out the pixels that a nearer stone covers.
