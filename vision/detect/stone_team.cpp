@@ -12,6 +12,7 @@ namespace {
 constexpr double least_saturation = 0.35;
 constexpr double most_hue_error_rad = 0.44;  // 25 degrees: lamps and shade move a hue by less
 constexpr double hue_sigma_rad = 0.14;
+constexpr double least_confidence = 0.8;  // less is a guess
 
 struct Hue {
   double angle_rad;
@@ -51,7 +52,9 @@ TeamVerdict team_of(const std::array<float, 3>& colour, const TeamHues& hues) {
   const double a = likelihood(first);
   const double b = likelihood(second);
   const double outsider = likelihood(most_hue_error_rad);
-  return {first < second ? Team::first : Team::second, std::max(a, b) / (a + b + outsider)};
+  const double confidence = std::max(a, b) / (a + b + outsider);
+  if (confidence < least_confidence) return {Team::unknown, 1.0 - confidence};
+  return {first < second ? Team::first : Team::second, confidence};
 }
 
 }  // namespace hogline::vision

@@ -35,7 +35,7 @@ const Case cases[] = {
     {"between the house and the hog line", 0.5, 4.0, true, false, false, true},
     {"touches the hog line", 0.5, 6.27, false, false, true, true},
     {"clears the hog line", 0.5, 6.24, true, false, false, true},
-    {"touches the sideline", 2.235, 1.0, false, false, false, true},
+    {"touches the sideline", 2.25, 1.0, false, false, false, true},
     {"clears the sideline", -2.22, 1.0, true, false, false, true},
 };
 
