@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/detect/granite.hpp"
 #include "vision/detect/ice_light.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
@@ -15,10 +16,11 @@ namespace {
 constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is still ours to see
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
+constexpr double least_granite = 0.35;   // of the body's front; a nearer stone's granite counts, too
 constexpr double look_around_m = 0.15;
 constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 
-StoneFitOptions quick_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
+StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
 
 }  // namespace
 
@@ -109,6 +111,7 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const I
                                                    const std::vector<StoneCandidate>& candidates) const {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
+    if (granite_share(image, ice, response, camera, setup.shape, c.place) < least_granite) continue;
     const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
     stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0])});
   }

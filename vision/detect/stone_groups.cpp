@@ -5,17 +5,14 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/detect/granite.hpp"
 #include "vision/detect/ground_view.hpp"
 
 namespace hogline::vision {
 namespace {
 
-constexpr double range_m = 13.0;        // from the body: the hog line and a little more
-constexpr double grip_height_m = 0.07;  // over the handle's rim
-constexpr float darkest = 0.09F;        // of granite, against ice
-constexpr float lightest = 0.62F;
-constexpr float least_neutral = 0.03F;       // spread of the channels that noise alone makes
-constexpr float most_coloured = 0.38F;       // spread of the channels as a share of the brightest
+constexpr double range_m = 13.0;             // from the body: the hog line and a little more
+constexpr double grip_height_m = 0.07;       // over the handle's rim
 constexpr double least_granite = 0.20;       // share of the body below a handle; nearer stones may hide the rest
 constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
 constexpr float margin_px = 4.0F;
@@ -40,7 +37,7 @@ std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
 }
 
 // Of a rectangle about (x, y): `side` to the left and right, from `above` to `below`.
-double granite_share(const cv::Mat& sums, int x, int y, float side, float above, float below) {
+double share_in(const cv::Mat& sums, int x, int y, float side, float above, float below) {
   const int x0 = std::clamp(x - static_cast<int>(side), 0, sums.cols - 1);
   const int x1 = std::clamp(x + static_cast<int>(side) + 1, 0, sums.cols - 1);
   const int y0 = std::clamp(y + static_cast<int>(above), 0, sums.rows - 1);
@@ -118,9 +115,7 @@ cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const IceLight& ice, const
         const float b = response.linear(in[3 * c]) * scale[0];
         const float g = response.linear(in[3 * c + 1]) * scale[1];
         const float red = response.linear(in[3 * c + 2]) * scale[2];
-        const float high = std::max({b, g, red});
-        const float spread = high - std::min({b, g, red});
-        out[c] = high > darkest && high < lightest && spread < least_neutral + most_coloured * high ? 1 : 0;
+        out[c] = may_be_granite(b, g, red) ? 1 : 0;
       }
     }
   }
@@ -136,10 +131,9 @@ cv::Mat StoneGroupFinder::possible_centres(const cv::Mat& granite) const {
     for (int c = 0; c < granite.cols; ++c) {
       const Extent& e = extent(2 * c, top_ + 2 * r);
       if (!e.seen) continue;
-      const double body = granite_share(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
+      const double body = share_in(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
       if (body < least_granite) continue;
-      const double handle =
-          granite_share(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
+      const double handle = share_in(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
       if (handle <= most_handle_granite) out[c] = 255;
     }
   }
