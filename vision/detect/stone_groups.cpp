@@ -15,7 +15,10 @@ constexpr double range_m = 13.0;             // from the body: the hog line and 
 constexpr double grip_height_m = 0.07;       // over the handle's rim
 constexpr double least_granite = 0.20;       // share of the body below a handle; nearer stones may hide the rest
 constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
+constexpr float big_px = 16.0F;              // half the width of a stone that is searched in steps
 constexpr float margin_px = 4.0F;
+
+cv::Rect all_of(const cv::Mat& picture) { return {0, 0, picture.cols, picture.rows}; }
 
 // Overlapping boxes become one, until none overlap.
 std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
@@ -122,22 +125,28 @@ cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const IceLight& ice, const
   return mask;
 }
 
+// Where stones are big every second pixel in both directions, for itself and its neighbours.
 cv::Mat StoneGroupFinder::possible_centres(const cv::Mat& granite) const {
   cv::Mat sums;
   cv::integral(granite, sums, CV_32S);
   cv::Mat centres(granite.size(), CV_8UC1, cv::Scalar(0));
   for (int r = 0; r < granite.rows; ++r) {
-    std::uint8_t* out = centres.ptr<std::uint8_t>(r);
-    for (int c = 0; c < granite.cols; ++c) {
+    for (int c = 0; c < granite.cols;) {
       const Extent& e = extent(2 * c, top_ + 2 * r);
-      if (!e.seen) continue;
-      const double body = share_in(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
-      if (body < least_granite) continue;
-      const double handle = share_in(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
-      if (handle <= most_handle_granite) out[c] = 255;
+      const int step = e.seen && e.half_width > big_px ? 2 : 1;
+      const bool wanted = e.seen && (step == 1 || r % 2 == 0);
+      if (wanted && may_be_centre(e, sums, c, r)) centres(cv::Rect(c, r, step, step) & all_of(centres)).setTo(255);
+      c += step;
     }
   }
   return centres;
+}
+
+bool StoneGroupFinder::may_be_centre(const Extent& e, const cv::Mat& sums, int c, int r) {
+  const double body = share_in(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
+  if (body < least_granite) return false;
+  const double handle = share_in(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
+  return handle <= most_handle_granite;
 }
 
 std::vector<cv::Rect> StoneGroupFinder::boxes_of(const cv::Mat& centres, cv::Size picture) const {

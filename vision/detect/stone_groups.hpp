@@ -51,6 +51,7 @@ class StoneGroupFinder {
     return extents_[static_cast<std::size_t>(y / block_px * columns_ + x / block_px)];
   }
   cv::Mat granite(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const;
+  static bool may_be_centre(const Extent& e, const cv::Mat& sums, int c, int r);
   cv::Mat possible_centres(const cv::Mat& granite) const;
   std::vector<cv::Rect> boxes_of(const cv::Mat& centres, cv::Size picture) const;
 

@@ -10,7 +10,8 @@
 namespace hogline::vision {
 namespace {
 
-constexpr int block_px = 16;
+constexpr int block_px = 24;
+constexpr float first_share = 0.15F;
 constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is searched in steps of two pixels
 constexpr float big_y_px = 6.0F;
 constexpr double removal_m = 0.23;  // stones stand 0.29 m apart; votes are good to a pixel
@@ -28,6 +29,7 @@ struct Outline {
   std::vector<Mark> far_rim;
   std::vector<std::array<Mark, 3>> near_edge;
   std::vector<Mark> body;
+  std::vector<Mark> first_marks;  ///< some of these
   bool big_x = false;
   bool big_y = false;
   float removal_x = 0.0F;
@@ -70,6 +72,10 @@ class OutlineMaker {
       add(body, pixel, pi - a, outline.body);
     }
     for (int i = 0; i < 5; ++i) add(body, pixel, -0.5 * pi + 0.25 * (i - 2), outline.body);
+    for (std::size_t i = 0; i < outline.body.size(); i += 4) outline.first_marks.push_back(outline.body[i]);
+    for (std::size_t i = 1; i < outline.near_edge.size(); i += 3)
+      outline.first_marks.push_back(outline.near_edge[i][1]);
+    for (std::size_t i = 1; i < outline.far_rim.size(); i += 3) outline.first_marks.push_back(outline.far_rim[i]);
     const auto right = camera_.project(circle_point(*place, bearing, removal_m, shape_.handle_height_m, 0.0));
     const auto away = camera_.project(circle_point(*place, bearing, removal_m, shape_.handle_height_m, 0.5 * pi));
     if (!right || !away) return Outline{};
@@ -105,6 +111,14 @@ struct Votes {
     return static_cast<float>(handle_share) * handle + static_cast<float>(1.0 - handle_share) * body;
   }
 };
+
+// A few marks on both sides of the body and along the handle's near edge: where hardly any of them stands on an edge
+// the rest are not worth asking.
+bool worth_asking(EdgeField& field, const Outline& outline, float x, float y) {
+  float sum = 0.0F;
+  for (const Mark& m : outline.first_marks) sum += field.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+  return sum >= first_share * static_cast<float>(outline.first_marks.size());
+}
 
 Votes votes_for(EdgeField& field, const Outline& outline, float x, float y) {
   Votes votes;
@@ -161,6 +175,7 @@ std::vector<Ballot> all_ballots(const StoneGroups& groups, EdgeField& field, Out
       if (!outline.seen) continue;
       for (int y = groups.top + 2 * r; y < groups.top + 2 * r + (outline.big_y ? 1 : 2); ++y) {
         for (int x = 2 * c; x < 2 * c + (outline.big_x ? 1 : 2); ++x) {
+          if (!worth_asking(field, outline, static_cast<float>(x), static_cast<float>(y))) continue;
           const Votes votes = votes_for(field, outline, static_cast<float>(x), static_cast<float>(y));
           if (votes.all() > least) ballots.push_back({x, y, votes, &outline});
         }

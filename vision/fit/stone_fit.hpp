@@ -33,9 +33,9 @@ struct StoneFitResult {
 };
 
 struct StoneFitOptions {
-  int iterations = 5;
+  int iterations = 4;
   bool fit_shape = true;
-  std::size_t pixels = 400;                  ///< about so many of each stone
+  std::size_t pixels = 300;                  ///< about so many of each stone
   std::vector<Eigen::Vector2d> nearer = {};  ///< stones known already, which may hide parts of these
 };
 
