@@ -12,6 +12,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr double range_m = 13.0;             // from the body: the hog line and a little more
+constexpr double half_width_m = 4.5;         // to the side of the body: the sheet, off its middle and turned
 constexpr double grip_height_m = 0.07;       // over the handle's rim
 constexpr double least_granite = 0.20;       // share of the body below a handle; nearer stones may hide the rest
 constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
@@ -72,7 +73,9 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
   if (!place) return {};
   const Eigen::Vector3d eye = camera.eMc().translation();
   const Bearing bearing = bearing_of(*place, eye);
-  if (bearing.range_m > 2.0 * range_m || bearing.range_m < 2.0 * shape.body_radius_m) return {};
+  if (std::abs(place->x()) > half_width_m || bearing.range_m > 1.2 * range_m ||
+      bearing.range_m < 2.0 * shape.body_radius_m)
+    return {};
   const double granite_m = shape.handle_height_m - shape.handle_thickness_m;
   const auto side = camera.project(body_outline_point(*place, shape, eye, 0.0));
   const auto begin =
@@ -112,7 +115,13 @@ cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const IceLight& ice, const
     const std::uint8_t* in = half.ptr<std::uint8_t>(r);
     std::uint8_t* out = mask.ptr<std::uint8_t>(r);
     for (int begin = 0; begin < half.cols; begin += run) {
-      const auto white = ice.at(2.0 * begin + run, top_ + 2.0 * r);
+      const int row = top_ + 2 * r;
+      const int last = std::min(2 * (begin + run), bgr.cols) - 1;
+      if (!extent(2 * begin, row).seen && !extent(last, row).seen) {
+        std::fill(out + begin, out + std::min(begin + run, half.cols), std::uint8_t{0});
+        continue;
+      }
+      const auto white = ice.at(2.0 * begin + run, row);
       const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
       for (int c = begin; c < std::min(begin + run, half.cols); ++c) {
         const float b = response.linear(in[3 * c]) * scale[0];

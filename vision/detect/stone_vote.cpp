@@ -11,7 +11,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr int block_px = 24;
-constexpr float first_share = 0.15F;
+constexpr float first_share = 0.22F;
 constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is searched in steps of two pixels
 constexpr float big_y_px = 6.0F;
 constexpr double removal_m = 0.23;  // stones stand 0.29 m apart; votes are good to a pixel
@@ -56,23 +56,23 @@ class OutlineMaker {
     const auto body = [&](double a) { return camera_.project(body_outline_point(*place, shape_, eye, a)); };
     outline.seen = true;
     constexpr double pi = std::numbers::pi;
-    for (int i = 0; i < 11; ++i) {
-      add(circle(shape_.handle_height_m), pixel, pi * (0.08 + 0.084 * i), outline.far_rim);
+    for (int i = 0; i < 8; ++i) {
+      add(circle(shape_.handle_height_m), pixel, pi * (0.08 + 0.12 * i), outline.far_rim);
     }
-    for (int i = 0; i < 11; ++i) {
+    for (int i = 0; i < 8; ++i) {
       std::vector<Mark> marks;
       for (const double thick : {0.5, 1.0, 1.6}) {
-        add(circle(shape_.handle_height_m - thick * shape_.handle_thickness_m), pixel, -pi * (0.08 + 0.084 * i), marks);
+        add(circle(shape_.handle_height_m - thick * shape_.handle_thickness_m), pixel, -pi * (0.08 + 0.12 * i), marks);
       }
       if (marks.size() == 3) outline.near_edge.push_back({marks[0], marks[1], marks[2]});
     }
-    for (int i = 0; i < 8; ++i) {
-      const double a = -0.9 + 0.2 * i;  // from below the waist to the shoulder
+    for (int i = 0; i < 5; ++i) {
+      const double a = -0.9 + 0.35 * i;  // from below the waist to the shoulder
       add(body, pixel, a, outline.body);
       add(body, pixel, pi - a, outline.body);
     }
-    for (int i = 0; i < 5; ++i) add(body, pixel, -0.5 * pi + 0.25 * (i - 2), outline.body);
-    for (std::size_t i = 0; i < outline.body.size(); i += 4) outline.first_marks.push_back(outline.body[i]);
+    for (int i = 0; i < 3; ++i) add(body, pixel, -0.5 * pi + 0.4 * (i - 1), outline.body);
+    for (std::size_t i = 0; i < outline.body.size(); i += 3) outline.first_marks.push_back(outline.body[i]);
     for (std::size_t i = 1; i < outline.near_edge.size(); i += 3)
       outline.first_marks.push_back(outline.near_edge[i][1]);
     for (std::size_t i = 1; i < outline.far_rim.size(); i += 3) outline.first_marks.push_back(outline.far_rim[i]);

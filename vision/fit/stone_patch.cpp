@@ -114,15 +114,13 @@ std::vector<StonePixel> stone_pixels(const PatchSource& source, const SheetCamer
   const SightTable sights(camera, area);
   if (!sights.ok()) return {};
   const Eigen::Vector3d eye = camera.eMc().translation();
+  // About a third of the rectangle lies near an outline; of a big stone, every few pixels in a slanting pattern do.
+  const int keep = std::clamp(area.area() / static_cast<int>(3 * most), 1, 10);
   std::vector<StonePixel> all;
   for (int y = area.y; y < area.br().y; ++y) {
     const std::uint8_t* row = source.bgr.ptr<std::uint8_t>(y);
     for (int x = area.x; x < area.br().x; ++x) {
-      // Of a big stone every second pixel in a chequered pattern, of a bigger one every fourth.
-      const int keep = static_cast<std::size_t>(area.area()) > 8 * most   ? 4
-                       : static_cast<std::size_t>(area.area()) > 3 * most ? 2
-                                                                          : 1;
-      if ((x + 2 * y + y / 2) % keep != 0) continue;
+      if ((x + 3 * y) % keep != 0) continue;
       StonePixel p;
       p.pixel = {x, y};
       p.sight = sights.at(p.pixel);

@@ -22,6 +22,13 @@ std::string line(std::uint64_t seed, const char* what, double x_m, double y_m, c
   return text;
 }
 
+std::string seen_of(const hogline::testing::BoardStone& s) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(handle %.0f %%, body %.0f %% in sight): ", 100.0 * s.handle_seen,
+                100.0 * s.body_seen);
+  return text;
+}
+
 std::string doubt_near(const StonesSketch& sketch, double x_m, double y_m) {
   for (const auto& c : sketch.candidates) {
     if (std::hypot(c.votes.place.x() - x_m, c.votes.place.y() - y_m) < same_place_m) return c.doubt;
@@ -59,7 +66,8 @@ void score(std::uint64_t seed, BoardScore& total) {
       }
     }
     if (wanted && !hit) {
-      total.failures.push_back(line(seed, "missed", truth.x_m, truth.y_m, doubt_near(sketch, truth.x_m, truth.y_m)));
+      total.failures.push_back(
+          line(seed, "missed", truth.x_m, truth.y_m, seen_of(truth) + doubt_near(sketch, truth.x_m, truth.y_m)));
     }
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
