@@ -16,7 +16,7 @@ namespace {
 constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is still ours to see
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
-constexpr double least_granite = 0.35;   // of the body's front; a nearer stone's granite counts, too
+constexpr double least_granite = 0.20;   // of the body's front; a nearer stone's granite counts, too
 constexpr double look_around_m = 0.15;
 constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 

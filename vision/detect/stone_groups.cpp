@@ -14,7 +14,7 @@ namespace {
 constexpr double range_m = 13.0;             // from the body: the hog line and a little more
 constexpr double half_width_m = 4.5;         // to the side of the body: the sheet, off its middle and turned
 constexpr double grip_height_m = 0.07;       // over the handle's rim
-constexpr double least_granite = 0.20;       // share of the body below a handle; nearer stones may hide the rest
+constexpr double least_granite = 0.12;       // share of the body below a handle; nearer stones may hide the rest
 constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
 constexpr float big_px = 16.0F;              // half the width of a stone that is searched in steps
 constexpr float margin_px = 4.0F;

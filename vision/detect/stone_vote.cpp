@@ -16,6 +16,7 @@ constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is se
 constexpr float big_y_px = 6.0F;
 constexpr double removal_m = 0.23;  // stones stand 0.29 m apart; votes are good to a pixel
 constexpr double handle_share = 0.55;
+constexpr double handle_alone = 0.70;
 
 /// A place of an outline relative to the handle's centre, with the outline's normal there.
 struct Mark {
@@ -107,8 +108,10 @@ class OutlineMaker {
 struct Votes {
   float handle = 0.0F;
   float body = 0.0F;
+  // Of a stone behind others only the handle may be seen.
   float all() const {
-    return static_cast<float>(handle_share) * handle + static_cast<float>(1.0 - handle_share) * body;
+    return std::max(static_cast<float>(handle_share) * handle + static_cast<float>(1.0 - handle_share) * body,
+                    static_cast<float>(handle_alone) * handle);
   }
 };
 

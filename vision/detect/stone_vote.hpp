@@ -36,8 +36,8 @@ struct StoneArea {
 
 struct StoneVoteOptions {
   StoneArea area;
-  double least_votes = 0.28;
-  std::size_t most_candidates = 60;
+  double least_votes = 0.26;
+  std::size_t most_candidates = 120;
 };
 
 /// Candidates of all boxes, by falling votes.
