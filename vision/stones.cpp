@@ -18,9 +18,13 @@ constexpr double behind_house_m = 0.60;  // behind the back line: out of play, b
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double least_granite = 0.20;   // of the body's front; a nearer stone's granite counts, too
 constexpr double look_around_m = 0.15;
+constexpr double same_place_m = 0.2;
+constexpr int most_rounds = 3;    // a stone behind one behind one
 constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
+
+StoneFitOptions careful_look() { return {.iterations = 4, .fit_shape = false, .pixels = 250}; }
 
 }  // namespace
 
@@ -35,6 +39,8 @@ struct StoneFinder::Impl {
   StoneArea area(std::optional<double> sheet_width_m) const;
   std::vector<JudgedStone> screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
                                   const std::vector<StoneCandidate>& candidates) const;
+  bool look_behind_known(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+                         std::vector<JudgedStone>& stones) const;
   void refine(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
               std::vector<JudgedStone>& stones) const;
   StoneSighting sighting(const JudgedStone& stone) const;
@@ -115,20 +121,32 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const I
     const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
     stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0])});
   }
-  StoneFitOptions behind = quick_look();
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!look_behind_known(image, ice, camera, stones)) break;
+  }
+  return stones;
+}
+
+// True where that made a stone of one that was none.
+bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+                                          std::vector<JudgedStone>& stones) const {
+  StoneFitOptions behind = careful_look();
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) behind.nearer.push_back(s.fit.place);
   }
   const Eigen::Vector2d eye = camera.eMc().translation().head<2>();
+  bool more = false;
   for (JudgedStone& s : stones) {
     const auto hides = [&](const Eigen::Vector2d& other) {
-      return (other - eye).norm() < (s.candidate.place - eye).norm() && (other - s.candidate.place).norm() < hiding_m;
+      const double apart_m = (other - s.candidate.place).norm();
+      return (other - eye).norm() < (s.candidate.place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
     };
     if (s.doubt.empty() || !std::any_of(behind.nearer.begin(), behind.nearer.end(), hides)) continue;
     s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, behind).stones[0];
     s.doubt = doubt_of(s.candidate, s.fit);
+    more = more || s.doubt.empty();
   }
-  return stones;
+  return more;
 }
 
 // All together: stones that hide each other, and the shape they share.

@@ -14,7 +14,8 @@ constexpr int block_px = 24;
 constexpr float first_share = 0.22F;
 constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is searched in steps of two pixels
 constexpr float big_y_px = 6.0F;
-constexpr double removal_m = 0.23;  // stones stand 0.29 m apart; votes are good to a pixel
+constexpr double removal_m =
+    0.14;  // the fit parts what stands nearer than a stone; a wrong peak must not take a stone along
 constexpr double handle_share = 0.55;
 constexpr double handle_alone = 0.70;
 
