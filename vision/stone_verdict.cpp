@@ -12,7 +12,8 @@ constexpr double neutral_spread = 0.09;  // of the channels: noise and reflectio
 constexpr double neutral_share = 0.30;
 constexpr double colourless = 0.35;  // share of the brightest channel that the channels of a grey differ by
 constexpr double faint = 0.12;       // difference of the channels, light against white ice
-constexpr double most_votes = 0.60;  // more than chance gives: a handle without a colour needs them
+constexpr double least_body_votes = 0.10;
+constexpr double most_votes = 0.66;  // more than chance gives: a handle without a colour needs them
 constexpr double least_handle_contrast = 0.15;
 constexpr double least_explained = 0.80;
 constexpr double most_residual = 0.25;
@@ -27,7 +28,7 @@ double quality(const JudgedStone& s) { return s.candidate.votes * s.fit.explaine
 
 }  // namespace
 
-std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit) {
+std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another) {
   if (!fit.ok) return fit.reason;
   if (fit.visible < least_visible) return "too little of it can be seen";
   const double light = brightness(fit.granite);
@@ -40,6 +41,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit) {
   const double spread_of_handle = fit.handle.maxCoeff() - fit.handle.minCoeff();
   if ((saturation < colourless || spread_of_handle < faint) && candidate.votes < most_votes)
     return "a handle without colour, and few votes";
+  if (!behind_another && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};

@@ -18,7 +18,8 @@ struct JudgedStone {
 
 /// Why a fitted candidate is no stone, by itself: its "granite" is not grey or too dark or too light, its "handle" is
 /// of the same colour, the picture is not explained, it ran away from its votes. Empty where there is no doubt.
-std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit);
+/// `behind_another`: a nearer stone may hide its body, which then need not be seen.
+std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another);
 
 /// Two stones can not stand in one place: of those nearer than a stone's breadth the better keeps it. Marks the others.
 void part_overlapping(std::vector<JudgedStone>& stones);

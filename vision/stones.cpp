@@ -24,6 +24,14 @@ constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over
 
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
 
+// Something nearer stands in the way, or beside it.
+bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye) {
+  return std::any_of(others.begin(), others.end(), [&](const NearerStone& other) {
+    const double apart_m = (other.place - place).norm();
+    return (other.place - eye).norm() < (place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
+  });
+}
+
 StoneFitOptions careful_look() { return {.iterations = 4, .fit_shape = false, .pixels = 250}; }
 
 }  // namespace
@@ -119,7 +127,7 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const I
   for (const StoneCandidate& c : candidates) {
     if (granite_share(image, ice, response, camera, setup.shape, c.place) < least_granite) continue;
     const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
-    stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0])});
+    stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0], false)});
   }
   for (int round = 0; round < most_rounds; ++round) {
     if (!look_behind_known(image, ice, camera, stones)) break;
@@ -132,18 +140,14 @@ bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const IceLight& 
                                           std::vector<JudgedStone>& stones) const {
   StoneFitOptions behind = careful_look();
   for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) behind.nearer.push_back(s.fit.place);
+    if (s.doubt.empty()) behind.nearer.push_back({s.fit.place, s.fit.handle});
   }
   const Eigen::Vector2d eye = camera.eMc().translation().head<2>();
   bool more = false;
   for (JudgedStone& s : stones) {
-    const auto hides = [&](const Eigen::Vector2d& other) {
-      const double apart_m = (other - s.candidate.place).norm();
-      return (other - eye).norm() < (s.candidate.place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
-    };
-    if (s.doubt.empty() || !std::any_of(behind.nearer.begin(), behind.nearer.end(), hides)) continue;
+    if (s.doubt.empty() || !may_be_hidden(s.candidate.place, behind.nearer, eye)) continue;
     s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, behind).stones[0];
-    s.doubt = doubt_of(s.candidate, s.fit);
+    s.doubt = doubt_of(s.candidate, s.fit, true);
     more = more || s.doubt.empty();
   }
   return more;
@@ -158,10 +162,12 @@ void StoneFinder::Impl::refine(const cv::Mat& image, const IceLight& ice, const 
   }
   const auto result = fit_stones(image, response, ice, camera, setup.shape, starts);
   std::size_t next = 0;
+  std::vector<NearerStone> others;
+  for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;
     s.fit = result.stones[next++];
-    s.doubt = doubt_of(s.candidate, s.fit);
+    s.doubt = doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, camera.eMc().translation().head<2>()));
   }
 }
 

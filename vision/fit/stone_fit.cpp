@@ -118,9 +118,9 @@ class JointFit {
     for (StoneModel& s : stones_) s.look_behind(look_);
     for (StoneModel& s : stones_) {
       for (const StoneModel& other : stones_) {
-        if (&other != &s) s.hide_behind(other.place(), look_);
+        if (&other != &s) s.hide_behind({other.place(), other.handle_colour()}, look_);
       }
-      for (const Eigen::Vector2d& nearer : options_.nearer) s.hide_behind(nearer, look_);
+      for (const NearerStone& nearer : options_.nearer) s.hide_behind(nearer, look_);
     }
   }
 

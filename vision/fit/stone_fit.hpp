@@ -35,8 +35,8 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 4;
   bool fit_shape = true;
-  std::size_t pixels = 300;                  ///< about so many of each stone
-  std::vector<Eigen::Vector2d> nearer = {};  ///< stones known already, which may hide parts of these
+  std::size_t pixels = 300;              ///< about so many of each stone
+  std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
 };
 
 /// `starts` within about a pixel and a half of the truth.

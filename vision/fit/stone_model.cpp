@@ -10,10 +10,11 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double foot_height = -0.3;  // below it the outline melts into the stone's own shadow
-constexpr double shade_px = 8.0;      // granite darkens downwards: scale of that slope
-constexpr double hidden_px = -2.0;    // so near to a nearer stone nothing is believed
-constexpr double neighbour_m = 2.5;   // farther stones hide nothing of each other
+constexpr double foot_height = -0.3;    // below it the outline melts into the stone's own shadow
+constexpr double shade_px = 8.0;        // granite darkens downwards: scale of that slope
+constexpr double hidden_px = -2.0;      // so near to a nearer stone nothing is believed
+constexpr double grip_height_m = 0.06;  // over the handle's rim
+constexpr double neighbour_m = 2.5;     // farther stones hide nothing of each other
 constexpr double most_step_m = 0.06;
 constexpr std::size_t fewest_pixels = 40;
 constexpr double colour_weight = 0.4;  // neighbouring pixels share their colours
@@ -106,13 +107,22 @@ void StoneModel::look_behind(const SharedLook& look) {
   for (std::size_t i = 0; i < raw_.size(); ++i) pixels_[i].behind = to_parts * raw_[i].behind;
 }
 
-void StoneModel::hide_behind(const Eigen::Vector2d& nearer, const SharedLook& look) {
-  if ((nearer - place_).norm() > neighbour_m || (nearer - eye_.head<2>()).norm() >= range_m()) return;
-  const StonePlace front{nearer, look.shape};
+void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) {
+  if ((nearer.place - place_).norm() > neighbour_m || (nearer.place - eye_.head<2>()).norm() >= range_m()) return;
+  const StonePlace front{nearer.place, look.shape};
+  StonePlace grip = front;
+  grip.shape.handle_height_m += grip_height_m;
+  grip.shape.handle_thickness_m = grip_height_m;
+  const StonePlace own{place_, look.shape};
   for (StonePixel& p : raw_) {
     if (!p.usable) continue;
     const double px = std::max(handle_distance(front, eye_, p.sight).px, body_distance(front, eye_, p.sight).px);
-    if (px > hidden_px) p.usable = false;
+    if (px > hidden_px) {
+      p.usable = false;
+    } else if (handle_distance(grip, eye_, p.sight).px > 0.0 && handle_distance(own, eye_, p.sight).px < -1.0) {
+      const bool alike = (p.light - nearer.handle).norm() < 0.5 * (p.light - Light::Constant(0.25)).norm();
+      if (alike) p.usable = false;
+    }
   }
 }
 

@@ -29,6 +29,12 @@ using SharedMatrix = Eigen::Matrix<double, shared_numbers, shared_numbers>;
 SharedVector numbers_of(const SharedLook& look);
 SharedLook look_of(const SharedVector& numbers);
 
+/// A stone that may hide parts of another.
+struct NearerStone {
+  Eigen::Vector2d place;
+  Light handle = Light::Zero();  ///< its colour against white ice
+};
+
 class StoneModel {
  public:
   /// Gathers about `most` pixels of the outline. `source` is kept.
@@ -44,8 +50,8 @@ class StoneModel {
 
   /// What the stone hides, from what is seen beside it; with the handle's colour known, its grip is left out, too.
   void look_behind(const SharedLook& look);
-  /// Leaves out the pixels that a nearer stone covers.
-  void hide_behind(const Eigen::Vector2d& nearer, const SharedLook& look);
+  /// Leaves out the pixels that a nearer stone covers, and those beside the own handle that its grip seems to cover.
+  void hide_behind(const NearerStone& nearer, const SharedLook& look);
 
   /// The colours that explain the pixels best where the stone now is: linear least squares.
   void find_colours(const SharedLook& look);
