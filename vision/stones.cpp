@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "vision/detect/granite.hpp"
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
@@ -45,11 +45,11 @@ struct StoneFinder::Impl {
 
   std::string unusable(const cv::Mat& image) const;
   StoneArea area(std::optional<double> sheet_width_m) const;
-  std::vector<JudgedStone> screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+  std::vector<JudgedStone> screen(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                                   const std::vector<StoneCandidate>& candidates) const;
-  bool look_behind_known(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+  bool look_behind_known(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                          std::vector<JudgedStone>& stones) const;
-  void refine(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+  void refine(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
               std::vector<JudgedStone>& stones) const;
   StoneSighting sighting(const JudgedStone& stone) const;
 
@@ -73,7 +73,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
   const StoneArea area = impl_->area(sheet_width_m);
 
-  const IceLight ice(image, impl_->response, impl_->groups.top());
+  const WhiteLight ice(image, impl_->response, impl_->groups.top());
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
   const auto candidates = vote_for_stones(image, groups, ice, impl_->response, camera, impl_->setup.shape,
                                           {.area = area.wider(look_around_m)});
@@ -121,7 +121,7 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
 
 // Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:
 // with the stones that are known by now left out of the picture.
-std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                                                    const std::vector<StoneCandidate>& candidates) const {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
@@ -136,7 +136,7 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const I
 }
 
 // True where that made a stone of one that was none.
-bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                                           std::vector<JudgedStone>& stones) const {
   StoneFitOptions behind = careful_look();
   for (const JudgedStone& s : stones) {
@@ -154,7 +154,7 @@ bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const IceLight& 
 }
 
 // All together: stones that hide each other, and the shape they share.
-void StoneFinder::Impl::refine(const cv::Mat& image, const IceLight& ice, const SheetCamera& camera,
+void StoneFinder::Impl::refine(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                                std::vector<JudgedStone>& stones) const {
   std::vector<Eigen::Vector2d> starts;
   for (const JudgedStone& s : stones) {

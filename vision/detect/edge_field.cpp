@@ -13,7 +13,7 @@ constexpr float brightest = 1.5F;  // lamps' reflections are cut off
 
 }  // namespace
 
-EdgeField::EdgeField(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response)
+EdgeField::EdgeField(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response)
     : bgr_(bgr), ice_(ice), columns_((bgr.cols + tile_px - 1) / tile_px) {
   tiles_.resize(static_cast<std::size_t>(columns_ * ((bgr.rows + tile_px - 1) / tile_px)));
   for (std::size_t i = 0; i < 256; ++i) root_[i] = std::sqrt(response.linear(static_cast<std::uint8_t>(i)));

@@ -7,7 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 
 namespace hogline::vision {
 
@@ -16,7 +16,7 @@ namespace hogline::vision {
 class EdgeField {
  public:
   /// The references are kept. Precondition: CV_8UC3, not empty.
-  EdgeField(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response);
+  EdgeField(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
 
   /// How much of an edge with this unit normal stands at a pixel, 0..1; its sense and colour do not count.
   float edge(float x, float y, float normal_x, float normal_y);
@@ -32,7 +32,7 @@ class EdgeField {
   void compute(int column, int row, Tile& tile) const;
 
   const cv::Mat& bgr_;
-  const IceLight& ice_;
+  const WhiteLight& ice_;
   int columns_;
   std::array<float, 256> root_{};
   std::vector<std::unique_ptr<Tile>> tiles_;

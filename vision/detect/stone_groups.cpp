@@ -96,7 +96,7 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
   return e;
 }
 
-StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const {
+StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const {
   StoneGroups groups;
   groups.top = top_;
   groups.centres = possible_centres(granite(bgr, ice, response));
@@ -105,7 +105,7 @@ StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const IceLight& ice, cons
 }
 
 // At half size, 1 where a pixel may be granite.
-cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const {
+cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const {
   const cv::Mat lower = bgr.rowRange(top_, bgr.rows);
   cv::Mat half;
   cv::resize(lower, half, cv::Size(lower.cols / 2, lower.rows / 2), 0.0, 0.0, cv::INTER_AREA);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vision/camera_setup.hpp"
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/geometry/stone_shape.hpp"
 
 namespace hogline::vision {
@@ -25,7 +25,7 @@ class StoneGroupFinder {
   StoneGroupFinder(const CameraSetup& setup, const StoneShape& shape);
 
   /// Precondition: CV_8UC3 of the setup's size.
-  StoneGroups find(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const;
+  StoneGroups find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const;
 
   /// The first row in which ice of interest can lie.
   int top() const { return top_; }
@@ -50,7 +50,7 @@ class StoneGroupFinder {
   const Extent& extent(int x, int y) const {
     return extents_[static_cast<std::size_t>(y / block_px * columns_ + x / block_px)];
   }
-  cv::Mat granite(const cv::Mat& bgr, const IceLight& ice, const ResponseCurve& response) const;
+  cv::Mat granite(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const;
   static bool may_be_centre(const Extent& e, const cv::Mat& sums, int c, int r);
   cv::Mat possible_centres(const cv::Mat& granite) const;
   std::vector<cv::Rect> boxes_of(const cv::Mat& centres, cv::Size picture) const;

@@ -210,7 +210,7 @@ bool removed_by(const Ballot& peak, const Ballot& other) {
 
 }  // namespace
 
-std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const IceLight& ice,
+std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const WhiteLight& ice,
                                             const ResponseCurve& response, const SheetCamera& camera,
                                             const StoneShape& shape, const StoneVoteOptions& options) {
   const OutlineMaker maker(camera, shape, options.area);

@@ -9,7 +9,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/geometry/stone_shape.hpp"
 
@@ -41,7 +41,7 @@ struct StoneVoteOptions {
 };
 
 /// Candidates of all boxes, by falling votes.
-std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const IceLight& ice,
+std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const WhiteLight& ice,
                                             const ResponseCurve& response, const SheetCamera& camera,
                                             const StoneShape& shape, const StoneVoteOptions& options = {});
 

@@ -56,7 +56,7 @@ struct Parts {
 /// All stones of a picture and what they share.
 class JointFit {
  public:
-  JointFit(const cv::Mat& bgr, const ResponseCurve& response, const IceLight& ice, const SheetCamera& camera,
+  JointFit(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice, const SheetCamera& camera,
            const StoneShape& shape, const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options)
       : options_(options) {
     look_.shape = shape;
@@ -166,7 +166,7 @@ class JointFit {
 
 }  // namespace
 
-StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const IceLight& ice,
+StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
                           const SheetCamera& camera, const StoneShape& shape,
                           const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options) {
   JointFit fit(bgr, response, ice, camera, shape, starts, options);

@@ -7,7 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_model.hpp"
 
 namespace hogline::vision {
@@ -40,7 +40,7 @@ struct StoneFitOptions {
 };
 
 /// `starts` within about a pixel and a half of the truth.
-StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const IceLight& ice,
+StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
                           const SheetCamera& camera, const StoneShape& shape,
                           const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options = {});
 

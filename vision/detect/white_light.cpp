@@ -1,4 +1,4 @@
-#include "vision/detect/ice_light.hpp"
+#include "vision/detect/white_light.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ std::uint8_t high_level(const cv::Mat& bgr, const cv::Rect& block, int channel) 
 
 }  // namespace
 
-IceLight::IceLight(const cv::Mat& bgr, const ResponseCurve& response, int top)
+WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top)
     : top_(std::clamp(top, 0, bgr.rows - 1)),
       columns_((bgr.cols + block_px - 1) / block_px),
       rows_((bgr.rows - top_ + block_px - 1) / block_px) {
@@ -56,7 +56,7 @@ IceLight::IceLight(const cv::Mat& bgr, const ResponseCurve& response, int top)
   }
 }
 
-std::array<float, 3> IceLight::at(double x, double y) const {
+std::array<float, 3> WhiteLight::at(double x, double y) const {
   const double u = std::clamp(x / block_px - 0.5, 0.0, columns_ - 1.0);
   const double v = std::clamp((y - top_) / block_px - 0.5, 0.0, rows_ - 1.0);
   const int c = std::min(static_cast<int>(u), std::max(0, columns_ - 2));

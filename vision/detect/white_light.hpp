@@ -10,13 +10,13 @@
 
 namespace hogline::vision {
 
-class IceLight {
+class WhiteLight {
  public:
   static constexpr int block_px = 64;
 
   /// Looks at every fourth pixel from row `top` down. A high percentile of each block, which lamps' reflections do not
   /// reach, and the best of the blocks around, for those that paint fills. Precondition: CV_8UC3, not empty.
-  IceLight(const cv::Mat& bgr, const ResponseCurve& response, int top);
+  WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top);
 
   /// Linear light of white ice at a pixel: blue, green, red; never zero.
   std::array<float, 3> at(double x, double y) const;
