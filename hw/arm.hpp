@@ -23,6 +23,8 @@ class Arm {
   virtual ArmState state() const = 0;
   virtual void fold() = 0;
   virtual void unfold() = 0;
+  /// Clears a latched error; nothing moves before a new order.
+  virtual void rearm() = 0;
 };
 
 }  // namespace hogline::hw

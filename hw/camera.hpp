@@ -22,7 +22,10 @@ class Camera {
   virtual ~Camera() = default;
   /// The newest frame that has arrived by `now` and was not given before; older ones are dropped. Nothing if none has.
   virtual std::optional<Frame> latest(Stamp now) = 0;
+  /// Latched: frames that come again do not clear it.
   virtual std::optional<DeviceError> error() const = 0;
+  /// Clears a latched error.
+  virtual void rearm() = 0;
 };
 
 }  // namespace hogline::hw

@@ -29,7 +29,7 @@ struct StampedCanFrame {
 /// adapter, so that a stale command can not reach a drive after the bus comes back.
 enum class CanSendResult { sent, bus_down, would_block };
 
-/// Neither call blocks.
+/// No call blocks.
 class CanBus {
  public:
   virtual ~CanBus() = default;
@@ -38,6 +38,8 @@ class CanBus {
   virtual std::optional<StampedCanFrame> receive() = 0;
   /// False while the bus is off, the link is down or the adapter is gone.
   virtual bool up() const = 0;
+  /// The controller has counted so many errors that it is one step from bus-off: frames still pass, the next may not.
+  virtual bool error_passive() const { return false; }
 };
 
 }  // namespace hogline::hw

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hw/device_status.hpp"
+#include "hw/drive_phase.hpp"
 
 namespace hogline::hw {
 
@@ -11,16 +12,6 @@ namespace hogline::hw {
 struct WheelSpeeds {
   double left_radps = 0.0;
   double right_radps = 0.0;
-};
-
-enum class DrivePhase {
-  booting,   ///< nodes not yet identified and configured
-  ready,     ///< configured, not energised: does not move
-  enabling,  ///< on its way to enabled
-  enabled,   ///< follows command()
-  stopping,  ///< quick stop running
-  stopped,   ///< quick stop done, not energised
-  faulted,   ///< `error` says why; only rearm() leaves this phase
 };
 
 struct DriveState {

@@ -28,6 +28,9 @@ class Gripper {
   virtual void release() = 0;
   /// Spins the held stone at this rate, counter-clockwise from above positive.
   virtual void spin(double radps) = 0;
+  /// Clears a latched error; nothing moves before a new order. The operator's word that jaws which are not activated
+  /// hold no stone.
+  virtual void rearm() = 0;
 };
 
 }  // namespace hogline::hw

@@ -10,6 +10,17 @@ constexpr auto history_span = std::chrono::milliseconds(500);
 constexpr double gate_sigma = 4.0;
 constexpr double standstill_mps = 0.02;
 
+// Of the alpha-beta filter at 200 Hz: it looks back over about 60 ms.
+constexpr double speed_gain = 0.2;
+constexpr double acceleration_gain_per_s = 4.0;
+constexpr double jump_mps = 0.5;                  // no body does that in a control period
+constexpr double acceleration_sigma_mps2 = 0.15;  // what lag and the encoders' noise leave
+constexpr double encoder_sigma_mps = 0.003;
+
+// Of the mean of normalised innovations: each look counts for so much, and alone they stay within the limit.
+constexpr double surprise_share = 0.2;
+constexpr double surprise_limit = 1.2;  // 3.6 standard deviations
+
 HogDistanceModel::State placed(const OdometryConfig& config, double hog_distance_m, double sigma_m) {
   HogDistanceModel::State state;
   state.hog_distance_m = hog_distance_m;
@@ -29,17 +40,37 @@ void HogDistanceModel::propagate(State& state, double travelled_m) const {
   state.scale_scale += config_.scale_drift_per_sqrt_m * config_.scale_drift_per_sqrt_m * length_m;
 }
 
-void HogDistanceModel::hold(State& state, double dt_s) const { propagate(state, state.odometry_mps * dt_s); }
+void HogDistanceModel::hold(State& state, double dt_s) const {
+  const double gained_mps = state.acceleration_mps2 * dt_s;
+  propagate(state, (state.odometry_mps + 0.5 * gained_mps) * dt_s);
+  state.odometry_mps += gained_mps;
+  state.speed_mps += gained_mps;
+}
 
 void HogDistanceModel::drive(State& state, double dt_s, const Input& input) const {
   propagate(state, (state.odometry_mps + input.odometry_mps) / 2.0 * dt_s);
   state.odometry_mps = input.odometry_mps;
+  state.speed_mps += state.acceleration_mps2 * dt_s;
+  const double off_mps = input.odometry_mps - state.speed_mps;
+  if (std::abs(off_mps) > jump_mps) {
+    state.speed_mps = input.odometry_mps;
+    state.acceleration_mps2 = 0.0;
+    return;
+  }
+  state.speed_mps += speed_gain * off_mps;
+  state.acceleration_mps2 += acceleration_gain_per_s * off_mps;
 }
 
 bool HogDistanceModel::correct(State& state, const Measurement& measurement) const {
   const double innovation = measurement.hog_distance_m - state.hog_distance_m;
-  const double variance = state.distance_distance + measurement.sigma_m * measurement.sigma_m;
+  double variance = state.distance_distance + measurement.sigma_m * measurement.sigma_m;
   if (innovation * innovation > gate_sigma * gate_sigma * variance) return false;
+  state.surprise += surprise_share * (innovation / std::sqrt(variance) - state.surprise);
+  if (std::abs(state.surprise) > surprise_limit) {
+    state.distance_distance += innovation * innovation;
+    variance += innovation * innovation;
+    state.surprise = 0.0;
+  }
   const double distance_gain = state.distance_distance / variance;
   const double scale_gain = state.distance_scale / variance;
   state.hog_distance_m += distance_gain * innovation;
@@ -72,20 +103,30 @@ HogDistanceEstimate HogDistanceFilter::at(Stamp stamp) const {
   const double scale_sigma = std::sqrt(state.scale_scale);
   return {state.hog_distance_m,
           std::sqrt(state.distance_distance),
-          state.scale * state.odometry_mps,
-          std::abs(state.odometry_mps) * scale_sigma,
+          state.scale * state.speed_mps,
+          std::hypot(state.speed_mps * scale_sigma, encoder_sigma_mps),
+          state.scale * state.acceleration_mps2,
+          acceleration_sigma_mps2,
           state.scale,
           scale_sigma};
 }
 
 std::optional<Crossing> HogDistanceFilter::crossing(Stamp now, double plane_hog_distance_m) const {
   HogDistanceModel::State state = fusion_.at(now);
-  const double speed_mps = state.scale * state.odometry_mps;
+  const double speed_mps = state.scale * state.speed_mps;
+  const double acceleration_mps2 = state.scale * state.acceleration_mps2;
   if (speed_mps < standstill_mps) return std::nullopt;
-  const double ahead_s = (state.hog_distance_m - plane_hog_distance_m) / speed_mps;
+  const double ahead_m = state.hog_distance_m - plane_hog_distance_m;
+  const double there_squared = speed_mps * speed_mps + 2.0 * acceleration_mps2 * ahead_m;
+  if (there_squared < standstill_mps * standstill_mps) return std::nullopt;
+  const double there_mps = std::sqrt(there_squared);
+  const double ahead_s = 2.0 * ahead_m / (speed_mps + there_mps);
+  state.odometry_mps = state.speed_mps;
   model_.hold(state, ahead_s);
   const double sigma_m = std::sqrt(state.distance_distance);
-  return Crossing{now + from_seconds(ahead_s), sigma_m / speed_mps, sigma_m};
+  const double driven_sigma_m =
+      std::hypot(encoder_sigma_mps * ahead_s, 0.5 * acceleration_sigma_mps2 * ahead_s * ahead_s);
+  return Crossing{now + from_seconds(ahead_s), std::hypot(sigma_m, driven_sigma_m) / there_mps, sigma_m};
 }
 
 }  // namespace hogline::servo

@@ -67,8 +67,7 @@ ReleaseDecision decide_release(const ReleaseConfig& release, const RunConfig& ru
   const double ahead_s = seconds(crossing->stamp - outlook.now) - release.gripper_delay_s;
   if (ahead_s > seconds(outlook.dt) / 2.0) return decision;
 
-  const HogDistanceEstimate estimate = filter.at(outlook.now);
-  const double freed_at_m = estimate.hog_distance_m - estimate.speed_mps * release.gripper_delay_s;
+  const double freed_at_m = filter.at(outlook.now + from_seconds(release.gripper_delay_s)).hog_distance_m;
   const double off_m = std::abs(freed_at_m - release.hog_distance_m);
   const double stone_m = stone_distance_m(freed_at_m, outlook.heading_rad, release);
   const double clear_m = stone_to_hog_line_m + rule_sigmas * decision.place_sigma_m;

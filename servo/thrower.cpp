@@ -58,12 +58,19 @@ std::optional<std::string> Thrower::Impl::judge(const ThrowerObservation& observ
   if (auto reason = bad_input(observation, dt, needs(observation), config)) return *reason + in_state;
   if (observation.now - history.back().since > deadline()) {
     if (state == ThrowerState::release && !observation.gripper->open) release_ordered = false;
-    return std::string("deadline of ") + to_string(state) + " passed";
+    return std::string("deadline of ") + to_string(state) + " passed" + missing_view(observation);
   }
   if (state == ThrowerState::unfold || state == ThrowerState::measure) return std::nullopt;
   const double gyro_radps = estimate.heading(observation.now).rate_radps;
   if (auto reason = agreement.judge(gyro_radps, estimate.odometry().yaw_rate_radps, dt)) return *reason + in_state;
   return std::nullopt;
+}
+
+// What a measurement that does not end has waited for.
+std::string Thrower::Impl::missing_view(const ThrowerObservation& o) const {
+  if (state != ThrowerState::measure) return {};
+  if (!o.near_view || o.near_view->stamp < history.back().since) return ": no picture of the near camera";
+  return o.near_view->ok ? "" : ": near view: " + o.near_view->reason;
 }
 
 ThrowerCommand Thrower::Impl::act(const ThrowerObservation& observation, Duration dt) {

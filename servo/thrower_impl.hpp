@@ -27,6 +27,7 @@ struct Thrower::Impl {
   InputNeeds needs(const ThrowerObservation& observation) const;
   EstimateUse use() const;
   Duration deadline() const;
+  std::string missing_view(const ThrowerObservation& o) const;
 
   // thrower_standing.cpp: the states before the run
   ThrowerCommand unfold(const ThrowerObservation& observation);

@@ -24,7 +24,7 @@ ThrowerCommand Thrower::Impl::unfold(const ThrowerObservation& o) {
   const bool gyro = o.gyro && o.gyro->valid;
   const bool stone = o.gripper && o.gripper->holding && !o.gripper->open;
   if (up && wheels && gyro && stone) enter(ThrowerState::measure, o.now);
-  return standing(ArmOrder::unfold, CameraOrder::near);
+  return standing(ArmOrder::unfold, CameraOrder::none);  // a folded head sees darkness
 }
 
 ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {

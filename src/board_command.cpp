@@ -7,9 +7,10 @@
 
 #include "src/drawing/board_picture.hpp"
 #include "src/drawing/contact_sheet.hpp"
+#include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
-#include "src/pictures.hpp"
+#include "src/picture_reader.hpp"
 #include "src/stones_setup.hpp"
 #include "vision/board.hpp"
 #include "vision/near_view.hpp"
@@ -29,19 +30,20 @@ Looks look_at_all(const BoardOptions& options, const vision::StonesSetup& setup)
   vision::NearView near_view(setup.camera);
   vision::StoneFinder finder(setup);
   Looks looks;
-  for (const std::string& path : options.images) {
-    const hw::files::LoadedImage image = read_picture(path, setup.camera.intrinsics);
-    if (image.error) {
-      fmt::print(stderr, "{}: {}\n", path, image.error->what);
+  const auto& k = setup.camera.intrinsics;
+  const PictureReader next = read_pictures(options.images, {k.width_px, k.height_px}, std::nullopt);
+  while (const auto picture = next()) {
+    if (picture->bgr.empty()) {
+      fmt::print(stderr, "{}: {}\n", picture->name, picture->problem);
       continue;
     }
-    const SheetPosePercept sheet = near_view.acquire(image.bgr, {});
+    const SheetPosePercept sheet = near_view.acquire(picture->bgr, {});
     if (!sheet.ok) {
-      fmt::print(stderr, "{}: the sheet's pose: {}\n", path, sheet.reason);
+      fmt::print(stderr, "{}: the sheet's pose: {}\n", picture->name, sheet.reason);
       continue;
     }
-    looks.average.add(finder.find(image.bgr, {}, vision::from_row_major(sheet.eMc), sheet.sheet_width_m));
-    looks.last = image.bgr;
+    looks.average.add(finder.find(picture->bgr, {}, vision::from_row_major(sheet.eMc), sheet.sheet_width_m));
+    looks.last = picture->bgr;
     looks.sheet = sheet;
   }
   return looks;
@@ -89,7 +91,6 @@ void draw(const BoardOptions& options, const vision::StonesSetup& setup, const v
 }  // namespace
 
 int run_board(const BoardOptions& options) {
-  check_pictures_exist(options.images);
   const config::Rig rig = config::load_rig(options.rig);
   const vision::StonesSetup setup = stones_setup(rig);
   const Looks looks = look_at_all(options, setup);

@@ -7,7 +7,9 @@
 #include "src/board_command.hpp"
 #include "src/config/config_error.hpp"
 #include "src/demo_command.hpp"
+#include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
+#include "src/faults_command.hpp"
 #include "src/pose_command.hpp"
 #include "src/stones_command.hpp"
 #include "src/throw_command.hpp"
@@ -36,15 +38,21 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       ->check(CLI::IsMember({"near", "low"}));
   pose->add_flag("--sequence", options.sequence,
                  "the pictures are consecutive frames: each is predicted from those before");
-  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence")->capture_default_str();
+  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence; without it 60, and a video's own");
   pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
-  pose->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  pose->add_option(
+          "IMAGE", options.images,
+          "pictures as the camera gives them, or one recording of them: a folder, a video, a stamps file (.csv)")
+      ->required();
   pose->footer(
       "Examples:\n"
       "  hogline pose --rig rig.yaml --camera near frame.jpg\n"
       "  hogline pose --rig rig.yaml --camera near --sequence --rate 60 turn-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
-      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+      "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
+      "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return pose;
 }
 
@@ -102,15 +110,50 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
       "Example:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
       "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
-      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration.");
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
   return command;
 }
 
 CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
   auto* demo = app.add_subcommand("demo", "one whole throw on the simulated rink, with pictures and a report");
   add_shot(demo, options);
-  demo->footer("Example:\n  hogline demo --out out/demo");
+  demo->footer(
+      "Example:\n"
+      "  hogline demo --out out/demo\n"
+      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk).");
   return demo;
+}
+
+CLI::App* add_doctor(CLI::App& app, hogline::DoctorOptions& options) {
+  auto* doctor =
+      app.add_subcommand("doctor", "every device of a rig: what is found, what is wrong, what to do; moves nothing");
+  doctor->add_option("--rig", options.rig, "rig file (YAML)")->required();
+  doctor->add_flag("--simulated", options.simulated, "examine the simulated rink in the place of the rig's devices");
+  doctor->add_flag("--json", options.json, "one JSON object instead of a table");
+  doctor->footer(
+      "Examples:\n"
+      "  hogline doctor --rig rig.yaml\n"
+      "  hogline doctor --rig config/rigs/practice.yaml --simulated --json\n"
+      "It listens and reads; nothing is switched on and nothing is ordered. A rig whose cameras are all simulated is\n"
+      "examined on the simulated rink. Takes two to thirty seconds.\n"
+      "Exit status: 0 all well (notes do not count), 1 something is wrong, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  return doctor;
+}
+
+CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
+  auto* faults = app.add_subcommand("faults", "every fault of the table in a whole simulated throw, as a page");
+  faults->add_option("--out", options.out, "the page's file (Markdown); without it stdout");
+  faults->add_option("--only", options.only, "only cases whose group, name or way of injection contains this");
+  faults->footer(
+      "Examples:\n"
+      "  hogline faults --out doc/faults.md\n"
+      "  hogline faults --only Gyro\n"
+      "Exit status: 0 all ended as they should, 1 some did not (the page says which),\n"
+      "3 something outside failed (a disk).");
+  return faults;
 }
 
 int run(int argc, char** argv) {
@@ -128,6 +171,10 @@ int run(int argc, char** argv) {
   const auto* board = add_board(app, board_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
+  hogline::DoctorOptions doctor_options;
+  const auto* doctor = add_doctor(app, doctor_options);
+  hogline::FaultsOptions faults_options;
+  const auto* faults = add_faults(app, faults_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -137,6 +184,8 @@ int run(int argc, char** argv) {
   if (*stones) return hogline::run_stones(stones_options);
   if (*board) return hogline::run_board(board_options);
   if (*throwing) return hogline::run_throw(throw_options);
+  if (*doctor) return hogline::run_doctor(doctor_options);
+  if (*faults) return hogline::run_faults(faults_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }
@@ -146,7 +195,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   prepare_libraries();
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    std::fputs("hogline: the output can not be written: is the disk full?\n", stderr);
+    return ExitStatus::failed;
   } catch (const hogline::config::ConfigError& e) {
     std::fprintf(stderr, "hogline: %s\n", e.what());
     return ExitStatus::wrong_use;

@@ -10,9 +10,10 @@
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
 #include "src/drawing/picture_overlay.hpp"
+#include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
-#include "src/pictures.hpp"
+#include "src/picture_reader.hpp"
 #include "vision/low_sequence.hpp"
 #include "vision/low_view.hpp"
 #include "vision/near_sequence.hpp"
@@ -68,11 +69,10 @@ Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup
 }
 
 void check_use(const PoseOptions& options) {
-  if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0)) {
-    throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", options.rate_hz),
-                              "must be above 0, at most 1000 frames a second");
+  if (options.rate_hz && !(*options.rate_hz >= 0.1 && *options.rate_hz <= 1000.0)) {
+    throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", *options.rate_hz),
+                              "must be from 0.1 to 1000 frames a second");
   }
-  check_pictures_exist(options.images);
 }
 
 SheetPosePercept not_seen(const std::string& reason, Stamp stamp) {
@@ -88,23 +88,22 @@ int run_pose(const PoseOptions& options) {
   check_use(options);
   const config::Rig rig = config::load_rig(options.rig);
   const vision::CameraSetup& setup = rig.camera(options.camera);
+  const PictureReader next =
+      read_pictures(options.images, {setup.intrinsics.width_px, setup.intrinsics.height_px}, options.rate_hz);
   const Estimator estimate = estimator(options, setup);
 
   bool all_estimated = true;
-  Stamp stamp{};
-  for (const std::string& path : options.images) {
-    const hw::files::LoadedImage image = read_picture(path, setup.intrinsics);
+  while (const auto picture = next()) {
     cv::Mat drawing;
     const auto begin = std::chrono::steady_clock::now();
-    const SheetPosePercept percept = image.error
-                                         ? not_seen(image.error->what, stamp)
-                                         : estimate(image.bgr, stamp, options.draw.empty() ? nullptr : &drawing);
+    const SheetPosePercept percept =
+        picture->bgr.empty() ? not_seen(picture->problem, picture->stamp)
+                             : estimate(picture->bgr, picture->stamp, options.draw.empty() ? nullptr : &drawing);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-    fmt::print("{}\n", pose_line(path, percept, elapsed.count()));
+    fmt::print("{}\n", pose_line(picture->name, percept, elapsed.count()));
     std::fflush(stdout);
-    if (!drawing.empty()) save_drawing(options.draw, path, drawing);
+    if (!drawing.empty()) save_drawing(options.draw, picture->name, drawing);
     all_estimated = all_estimated && percept.ok;
-    stamp += from_seconds(1.0 / options.rate_hz);
   }
   return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -6,9 +6,10 @@
 #include <optional>
 
 #include "src/drawing/board_picture.hpp"
+#include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
-#include "src/pictures.hpp"
+#include "src/picture_reader.hpp"
 #include "src/stones_setup.hpp"
 #include "vision/board.hpp"
 #include "vision/near_view.hpp"
@@ -25,35 +26,36 @@ StonesPercept not_seen(const std::string& reason) {
 }  // namespace
 
 int run_stones(const StonesOptions& options) {
-  check_pictures_exist(options.images);
   const config::Rig rig = config::load_rig(options.rig);
   const vision::StonesSetup setup = stones_setup(rig);
   vision::NearView near_view(setup.camera);
   vision::StoneFinder finder(setup);
   const vision::Lens lens(setup.camera.intrinsics);
 
+  const auto& k = setup.camera.intrinsics;
+  const PictureReader next = read_pictures(options.images, {k.width_px, k.height_px}, std::nullopt);
+
   bool all_estimated = true;
-  for (const std::string& path : options.images) {
-    const hw::files::LoadedImage image = read_picture(path, setup.camera.intrinsics);
+  while (const auto picture = next()) {
     const auto begin = std::chrono::steady_clock::now();
     StonesPercept percept;
     vision::Pose eMc = vision::Pose::Identity();
     std::optional<double> width_m;
-    if (image.error) {
-      percept = not_seen(image.error->what);
+    if (picture->bgr.empty()) {
+      percept = not_seen(picture->problem);
     } else {
-      const SheetPosePercept sheet = near_view.acquire(image.bgr, {});
+      const SheetPosePercept sheet = near_view.acquire(picture->bgr, {});
       if (sheet.ok) eMc = vision::from_row_major(sheet.eMc);
       width_m = sheet.sheet_width_m;
-      percept = sheet.ok ? finder.find(image.bgr, {}, eMc, width_m) : not_seen("the sheet's pose: " + sheet.reason);
+      percept = sheet.ok ? finder.find(picture->bgr, {}, eMc, width_m) : not_seen("the sheet's pose: " + sheet.reason);
     }
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-    fmt::print("{}\n", stones_line(path, percept, elapsed.count()));
+    fmt::print("{}\n", stones_line(picture->name, percept, elapsed.count()));
     std::fflush(stdout);
     if (!options.draw.empty() && percept.ok) {
       const vision::SheetCamera camera(lens, eMc, setup.camera.ice);
-      save_drawing(options.draw, path,
-                   drawing::draw_stones(image.bgr, vision::judge(percept.stones, width_m), camera, setup.shape));
+      save_drawing(options.draw, picture->name,
+                   drawing::draw_stones(picture->bgr, vision::judge(percept.stones, width_m), camera, setup.shape));
     }
     all_estimated = all_estimated && percept.ok;
   }

@@ -14,6 +14,7 @@ struct CameraSetup {
   double gamma = 1.0;  ///< pixel = linear^(1/gamma)
   SheetConfig sheet;   ///< nominal: the true width is to be found
   Ice ice;
+  double paint_depth_sigma_m = 0.0;  ///< prior on `ice`'s paint depth; 0: taken as given. Used by the near view.
 };
 
 }  // namespace hogline::vision

@@ -1,143 +1,271 @@
 #include "vision/low_sequence.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "vision/fit/sheet_track.hpp"
 #include "vision/geometry/sheet_camera.hpp"
+#include "vision/low_percept.hpp"
+#include "vision/low_view_sketch.hpp"
+#include "vision/near_view_sketch.hpp"
+#include "vision/run_motion.hpp"
 
 namespace hogline::vision {
 namespace {
 
-constexpr std::size_t most_looks = 12;
-constexpr double largest_span_s = 0.3;
-constexpr double acceleration_sigma_mps2 = 0.5;  // of a run: 0.77 m/s2 at most
-constexpr double unknown_speed_mps = 3.5;        // the fastest run
-constexpr double yaw_acceleration_sigma_radps2 = 0.2;
+constexpr std::size_t most_features = 20;
+constexpr double acquired_search_px = 3.0;
+constexpr double any_sigma_m = 1e6;     // the tracker goes on where the distance can not be told
+constexpr double most_sigma_m = 0.3;    // of what is reported as seen
+constexpr double most_across_m = 0.05;  // of the place across the sheet, beside a dead-reckoned distance
+constexpr double rock_rad = 0.002;      // of pitch, from frame to frame
+constexpr double roll_rad = 0.0005;
+constexpr double heave_m = 0.001;
+constexpr double least_sigma_m = 0.001;
+constexpr double least_sigma_rad = 0.0003;
+constexpr int fewest_hog_places = 12;
+constexpr double least_hog_share = 0.3;
 
-/// Weighted straight line through (t, value): value and rate at t = 0.
-class Line {
- public:
-  void add(double t, double value, double sigma) {
-    const double w = 1.0 / (sigma * sigma);
-    w_ += w;
-    wt_ += w * t;
-    wtt_ += w * t * t;
-    wv_ += w * value;
-    wtv_ += w * t * value;
-  }
-  double value() const { return (wtt_ * wv_ - wt_ * wtv_) / determinant(); }
-  double rate() const { return (w_ * wtv_ - wt_ * wv_) / determinant(); }
-  double value_sigma() const { return std::sqrt(wtt_ / determinant()); }
-  double rate_sigma() const { return std::sqrt(w_ / determinant()); }
-
- private:
-  double determinant() const { return w_ * wtt_ - wt_ * wt_; }
-  double w_ = 0.0, wt_ = 0.0, wtt_ = 0.0, wv_ = 0.0, wtv_ = 0.0;
-};
-
-PlanarPose carried(const SteadyMotion& m, double dt_s) {
-  return {m.at.x_m + m.x_mps * dt_s, m.at.y_m + m.y_mps * dt_s, wrapped(m.at.yaw_rad + m.yaw_radps * dt_s)};
-}
-
-PlanarSigma carried_sigma(const SteadyMotion& m, double dt_s) {
-  const double drift_m = 0.5 * acceleration_sigma_mps2 * dt_s * dt_s;
-  const double turn_rad = 0.5 * yaw_acceleration_sigma_radps2 * dt_s * dt_s;
-  return {std::hypot(m.at_sigma.x_m, m.speed_sigma_mps * dt_s, drift_m),
-          std::hypot(m.at_sigma.y_m, m.speed_sigma_mps * dt_s, drift_m),
-          std::hypot(m.at_sigma.yaw_rad, m.yaw_rate_sigma_radps * dt_s, turn_rad)};
+const FittedFeature* hog_line_of(const SheetFitResult& result) {
+  const auto f = std::find_if(result.features.begin(), result.features.end(),
+                              [](const FittedFeature& feature) { return feature.name == "hog_line"; });
+  return f == result.features.end() ? nullptr : &*f;
 }
 
 }  // namespace
 
-SheetPosePercept LowSequence::step(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch) {
-  if (last_stamp_ && stamp <= *last_stamp_) {
-    SheetPosePercept refused;
-    refused.stamp = stamp;
-    refused.reason = "the frame is not newer than the one before";
-    return refused;
+struct LowSequence::Impl {
+  Impl(const CameraSetup& camera_setup, double exposure)
+      : setup(camera_setup), lens(camera_setup.intrinsics), exposure_s(exposure), view(setup), track(setup) {
+    percept.features.reserve(most_features);
   }
-  last_stamp_ = stamp;
-  while (!seen_.empty() && seconds(stamp - seen_.back().stamp) > longest_blind_s) seen_.clear();
 
-  SheetPosePercept percept = view_.acquire(image, stamp, predict(stamp), sketch);
-  if (percept.ok) {
-    if (percept.sheet_width_m) width_m_ = percept.sheet_width_m;
-    seen_.push_back({stamp, percept});
-    while (seen_.size() > most_looks || seconds(stamp - seen_.front().stamp) > largest_span_s) seen_.pop_front();
-    return percept;
+  void clear(Stamp stamp);
+  bool follow(const cv::Mat& image, Stamp stamp);
+  bool take(const SheetFitResult& result, Stamp stamp);
+  bool hog_line_seen(const SheetFitResult& result) const;
+  bool take_blind(const SheetFitResult& result, Stamp stamp);
+  void acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch);
+  bool dead_reckon(const cv::Mat& image, Stamp stamp);
+  const SheetFitResult& begin(const cv::Mat& image, const Pose& near_by);
+  SheetPrediction predict_camera(Stamp stamp) const;
+  LowViewPrediction predict_body(Stamp stamp) const;
+  bool hog_line_below(const PlanarPose& body) const;
+  RunPlace place(Stamp stamp) const;
+  bool give_up(std::string why);
+
+  CameraSetup setup;
+  Lens lens;
+  double exposure_s;
+  LowView view;
+  SheetTrack track;
+  RunMotion along;   // of frames that show the hog line
+  RunMotion across;  // of all that were measured
+  Pose eMc;          // at the newest place
+  PlanarPose body;   // there
+  bool tracking = false;
+  std::optional<double> width_m;
+  std::optional<Stamp> last_stamp;
+  SheetPosePercept percept;
+  LowSequenceDiagnosis diagnosis;
+};
+
+LowSequence::LowSequence(const CameraSetup& setup, double exposure_s)
+    : impl_(std::make_unique<Impl>(setup, exposure_s)) {}
+LowSequence::~LowSequence() = default;
+LowSequence::LowSequence(LowSequence&&) noexcept = default;
+LowSequence& LowSequence::operator=(LowSequence&&) noexcept = default;
+
+const SheetPosePercept& LowSequence::step(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch) {
+  impl_->clear(stamp);
+  if (impl_->last_stamp && stamp <= *impl_->last_stamp) {
+    impl_->percept.reason = "the frame is not newer than the one before";
+    return impl_->percept;
   }
-  if (const auto carried_on = dead_reckoned(stamp)) return *carried_on;
-  return percept;
+  impl_->last_stamp = stamp;
+
+  if (impl_->follow(image, stamp)) {
+    if (sketch != nullptr) sketch->model = model_lines(impl_->eMc, impl_->setup, impl_->percept.sheet_width_m);
+  } else if (!impl_->dead_reckon(image, stamp)) {
+    impl_->acquire(image, stamp, sketch);
+  }
+  return impl_->percept;
 }
 
-LowViewPrediction LowSequence::predict(Stamp stamp) const {
-  LowViewPrediction prediction;
-  prediction.sheet_width_m = width_m_;
-  if (seen_.empty()) return prediction;
-  const double dt_s = seconds(stamp - seen_.back().stamp);
-  if (const auto m = motion()) {
-    prediction.body = carried(*m, dt_s);
-    prediction.body_sigma = carried_sigma(*m, dt_s);
-    return prediction;
+LowViewPrediction LowSequence::predict(Stamp stamp) const { return impl_->predict_body(stamp); }
+
+const LowSequenceDiagnosis& LowSequence::diagnosis() const { return impl_->diagnosis; }
+
+void LowSequence::Impl::clear(Stamp stamp) {
+  percept.ok = false;
+  percept.reason.clear();
+  percept.stamp = stamp;
+  percept.features.clear();
+  diagnosis.tracked = diagnosis.blind = false;
+  diagnosis.lost.clear();
+  diagnosis.places = 0;
+  diagnosis.search_px = diagnosis.innovation = 0.0;
+}
+
+bool LowSequence::Impl::give_up(std::string why) {
+  diagnosis.lost = std::move(why);
+  diagnosis.frames_tracked = 0;
+  tracking = false;
+  return false;
+}
+
+// False: lost, with the reason in the diagnosis.
+bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
+  if (!tracking) return give_up("no frame before shows the hog line");
+  if (seconds(stamp - across.last_stamp()) > longest_gap_s) return give_up("the frames before are too old");
+  const SheetFitResult& result = track.follow(image, predict_camera(stamp));
+  diagnosis.places = track.diagnosis().places;
+  diagnosis.search_px = track.diagnosis().search_px;
+  diagnosis.innovation = track.diagnosis().innovation;
+  if (!take(result, stamp)) return false;
+  ++diagnosis.frames_tracked;
+  return true;
+}
+
+bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
+  if (!result.ok) return give_up(result.reason);
+  if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return give_up(std::move(why));
+  if (!hog_line_seen(result)) {
+    if (!take_blind(result, stamp)) return false;
+  } else {
+    percept.features.emplace_back("tracked");
+    fill_low_percept(result, setup, percept);
+    along.add(stamp, {percept.body, percept.sigma});
+    across.add(stamp, {percept.body, percept.sigma});
   }
-  const SheetPosePercept& last = seen_.back().percept;
-  prediction.body = last.body;
-  prediction.body->y_m += 0.5 * unknown_speed_mps * dt_s;
-  prediction.body_sigma = {last.sigma.x_m + 0.1 * unknown_speed_mps * dt_s,
-                           last.sigma.y_m + 0.5 * unknown_speed_mps * dt_s, last.sigma.yaw_rad + 0.5 * dt_s};
+  if (!percept.sheet_width_m) percept.sheet_width_m = width_m;
+  eMc = from_row_major(percept.eMc);
+  body = percept.body;
+  diagnosis.tracked = true;
+  return true;
+}
+
+bool LowSequence::Impl::hog_line_seen(const SheetFitResult& result) const {
+  const FittedFeature* hog = hog_line_of(result);
+  return hog != nullptr && hog->sites_used >= fewest_hog_places &&
+         hog->sites_used >= least_hog_share * hog->sites_tried && result.sigma.y_m < most_sigma_m;
+}
+
+// The hog line has left the picture: its distance by dead reckoning, the rest as measured.
+bool LowSequence::Impl::take_blind(const SheetFitResult& result, Stamp stamp) {
+  const RunPlace reckoned = place(stamp);
+  if (!hog_line_below(reckoned.body)) return give_up("the hog line is not where the frames before put it");
+  if (seconds(stamp - along.last_stamp()) > longest_blind_s) return give_up("the hog line was seen too long ago");
+  if (!(result.sigma.x_m < most_across_m)) return give_up("nothing in view tells the place across the sheet");
+  percept.features.emplace_back("dead_reckoning");
+  fill_low_percept(result, setup, percept);
+  Pose moved = result.eMc;
+  moved.translation().y() += reckoned.body.y_m - result.body.y_m;
+  percept.eMc = row_major(moved);
+  percept.body.y_m = reckoned.body.y_m;
+  percept.hog_distance_m = rules::tee_to_hog_m - reckoned.body.y_m;
+  percept.sigma.y_m = percept.hog_distance_sigma_m = reckoned.sigma.y_m;
+  across.add(stamp, {percept.body, percept.sigma});
+  diagnosis.blind = true;
+  return true;
+}
+
+// The track was lost, and the line is expected below the picture: a line that should be in view and is not was not
+// seen. What else is painted may be found again.
+bool LowSequence::Impl::dead_reckon(const cv::Mat& image, Stamp stamp) {
+  if (along.empty() || !along.known() || seconds(stamp - along.last_stamp()) > longest_blind_s) return false;
+  const RunPlace reckoned = place(stamp);
+  if (!hog_line_below(reckoned.body)) return false;
+  const std::string lost = diagnosis.lost;
+  tracking = take(begin(image, predict_camera(stamp).eMc), stamp);
+  diagnosis.lost = lost;
+  if (tracking) return true;
+  percept.ok = true;
+  percept.body = reckoned.body;
+  percept.sigma = reckoned.sigma;
+  percept.hog_distance_m = rules::tee_to_hog_m - reckoned.body.y_m;
+  percept.hog_distance_sigma_m = reckoned.sigma.y_m;
+  percept.sheet_width_m = width_m;
+  percept.eMc = row_major(eMb(reckoned.body) * bMc(setup.mount));
+  percept.residual_px = 0.0;
+  percept.sites_used = percept.sites_tried = 0;
+  percept.features.emplace_back("dead_reckoning");
+  diagnosis.blind = true;
+  return true;
+}
+
+void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch) {
+  if (!along.empty() && seconds(stamp - along.last_stamp()) > longest_blind_s) {
+    along.clear();
+    across.clear();
+  }
+  percept = view.acquire(image, stamp, predict_body(stamp), sketch);
+  if (!percept.ok) return;
+  percept.features.reserve(most_features);
+  percept.features.insert(percept.features.begin(), "acquired");
+  if (percept.sheet_width_m) width_m = percept.sheet_width_m;
+  along.add(stamp, {percept.body, percept.sigma});
+  across.add(stamp, {percept.body, percept.sigma});
+  eMc = from_row_major(percept.eMc);
+  body = percept.body;
+
+  tracking = begin(image, eMc).ok;
+}
+
+const SheetFitResult& LowSequence::Impl::begin(const cv::Mat& image, const Pose& near_by) {
+  SheetFitStart start;
+  start.eMc = near_by;
+  start.search_px = acquired_search_px;
+  start.sheet_width_m = width_m;
+  start.most_sigma_m = any_sigma_m;
+  start.pitch_sigma_rad = lean_sigma_rad;
+  start.roll_sigma_rad = low_mount::roll_sigma_rad;
+  start.height_sigma_m = low_mount::height_sigma_m;
+  return track.begin(image, start);
+}
+
+RunPlace LowSequence::Impl::place(Stamp stamp) const {
+  RunPlace there = across.at(stamp);
+  const RunPlace ahead = along.at(stamp);
+  there.body.y_m = ahead.body.y_m;
+  there.sigma.y_m = ahead.sigma.y_m;
+  return there;
+}
+
+LowViewPrediction LowSequence::Impl::predict_body(Stamp stamp) const {
+  LowViewPrediction prediction;
+  prediction.sheet_width_m = width_m;
+  if (along.empty()) return prediction;
+  const RunPlace there = place(stamp);
+  prediction.body = there.body;
+  prediction.body_sigma = there.sigma;
   return prediction;
 }
 
-std::optional<SteadyMotion> LowSequence::motion() const {
-  if (seen_.size() < 3) return std::nullopt;
-  Line x;
-  Line y;
-  Line yaw;
-  const Stamp now = seen_.back().stamp;
-  for (const Look& look : seen_) {
-    const double t = seconds(look.stamp - now);
-    // A constant acceleration bends the path: older frames say less of the speed now.
-    const double bend_m = 0.5 * acceleration_sigma_mps2 * t * t;
-    x.add(t, look.percept.body.x_m, std::hypot(look.percept.sigma.x_m, bend_m));
-    y.add(t, look.percept.body.y_m, std::hypot(look.percept.sigma.y_m, bend_m));
-    yaw.add(t, look.percept.body.yaw_rad,
-            std::hypot(look.percept.sigma.yaw_rad, 0.5 * yaw_acceleration_sigma_radps2 * t * t));
-  }
-  return SteadyMotion{.at = {x.value(), y.value(), yaw.value()},
-                      .at_sigma = {x.value_sigma(), y.value_sigma(), yaw.value_sigma()},
-                      .x_mps = x.rate(),
-                      .y_mps = y.rate(),
-                      .yaw_radps = yaw.rate(),
-                      .speed_sigma_mps = y.rate_sigma(),
-                      .yaw_rate_sigma_radps = yaw.rate_sigma()};
+// The camera as it was in the newest place, moved with the body; the rest is what a running body can do in a frame.
+SheetPrediction LowSequence::Impl::predict_camera(Stamp stamp) const {
+  const RunPlace there = place(stamp);
+  SheetPrediction prediction;
+  prediction.eMc = eMb(there.body) * eMb(body).inverse() * eMc;
+  const Eigen::Matrix3d eRc = prediction.eMc.linear();
+  const Eigen::Matrix3d eRb = eMb(there.body).linear();
+  const Eigen::Vector3d place_sigma(least_sigma_m + there.sigma.x_m, least_sigma_m + there.sigma.y_m, heave_m);
+  const Eigen::Vector3d turn_sigma(roll_rad, rock_rad, least_sigma_rad + there.sigma.yaw_rad);
+  const Eigen::Matrix3d cRb = eRc.transpose() * eRb;
+  prediction.covariance.setZero();
+  prediction.covariance.topLeftCorner<3, 3>() = eRc.transpose() * place_sigma.cwiseAbs2().asDiagonal() * eRc;
+  prediction.covariance.bottomRightCorner<3, 3>() = cRb * turn_sigma.cwiseAbs2().asDiagonal() * cRb.transpose();
+  prediction.travel.setZero();
+  prediction.travel.head<3>() = eRc.row(1).transpose() * along.speed_mps(stamp) * exposure_s;
+  return prediction;
 }
 
-// Only where the line is expected below the picture: a line that should be in view and is not was not seen.
-std::optional<SheetPosePercept> LowSequence::dead_reckoned(Stamp stamp) const {
-  const auto m = motion();
-  if (!m) return std::nullopt;
-  const double dt_s = seconds(stamp - seen_.back().stamp);
-  const PlanarPose body = carried(*m, dt_s);
-  if (!hog_line_below(body)) return std::nullopt;
-  const PlanarSigma sigma = carried_sigma(*m, dt_s);
-  SheetPosePercept p;
-  p.ok = true;
-  p.stamp = stamp;
-  p.body = body;
-  p.sigma = sigma;
-  p.hog_distance_m = rules::tee_to_hog_m - body.y_m;
-  p.hog_distance_sigma_m = sigma.y_m;
-  p.sheet_width_m = width_m_;
-  p.eMc = row_major(eMb(body) * bMc(setup_.mount));
-  p.features = {"dead_reckoning"};
-  return p;
-}
-
-bool LowSequence::hog_line_below(const PlanarPose& body) const {
-  const SheetCamera camera(Lens(setup_.intrinsics), eMb(body) * bMc(setup_.mount), setup_.ice);
+bool LowSequence::Impl::hog_line_below(const PlanarPose& there) const {
+  const SheetCamera camera(lens, eMb(there) * bMc(setup.mount), setup.ice);
   const auto near_edge = camera.project_paint({camera.eMc().translation().x(), rules::tee_to_hog_m});
   // Its house-side edge and some ice before it must be in view to see it.
-  const double margin_px = 0.025 * setup_.intrinsics.height_px;
-  return !near_edge || near_edge->y() > setup_.intrinsics.height_px - margin_px;
+  const double margin_px = 0.025 * setup.intrinsics.height_px;
+  return !near_edge || near_edge->y() > setup.intrinsics.height_px - margin_px;
 }
 
 }  // namespace hogline::vision

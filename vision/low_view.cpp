@@ -1,6 +1,7 @@
 #include "vision/low_view.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/detect/edge_points.hpp"
@@ -11,6 +12,8 @@
 #include "vision/detect/line_candidates.hpp"
 #include "vision/detect/line_classes.hpp"
 #include "vision/fit/sheet_fit.hpp"
+#include "vision/hog_line_evidence.hpp"
+#include "vision/low_percept.hpp"
 #include "vision/low_view_sketch.hpp"
 #include "vision/near_view_sketch.hpp"
 
@@ -22,13 +25,10 @@ constexpr double max_yaw_rad = 0.262;
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t most_hog_lines = 8;
 constexpr std::size_t most_tries = 3;
-constexpr double search_px = 10.0;
+constexpr std::array<double, 2> search_px{10.0, 20.0};  // the wider one where the first was not believed
 constexpr int fewest_sideline_points = 40;
-constexpr double sideline_lean_rad = 0.0005;  // sidelines that open by 5 mm over 2 m look like so much lean
-constexpr double most_sigma_m = 0.3;          // far off, without sidelines, the body's rocking leaves as much
-constexpr double least_error_m = 0.0005;
-constexpr double roll_sigma_rad = 0.0017;
-constexpr double height_sigma_m = 0.003;
+constexpr double most_sigma_m = 0.3;  // far off, without sidelines, the body's rocking leaves as much
+constexpr double least_lean_sigma_rad = 0.0006;
 
 /// A pose to start the joint fit from.
 struct Start {
@@ -52,21 +52,28 @@ std::vector<EdgePoint> down_ice_points(const std::vector<EdgePoint>& points) {
 
 struct LowView::Impl {
   explicit Impl(const CameraSetup& camera_setup)
-      : setup(camera_setup), view(camera_setup), ridge_finder(view, range_m), fit(camera_setup) {}
+      : setup(camera_setup),
+        view(camera_setup),
+        ridge_finder(view, range_m),
+        light(ridge_finder.top()),
+        response(camera_setup.gamma),
+        fit(camera_setup) {}
 
   std::string unusable(const cv::Mat& image) const;
   Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
-  SheetPosePercept refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch);
+  SheetPosePercept refine(const cv::Mat& image, const Start& start, double within_px, Stamp stamp,
+                          LowViewSketch* sketch);
   std::string doubt(const SheetFitResult& result, const Start& start) const;
-  SheetPosePercept percept(const SheetFitResult& result, Stamp stamp) const;
-  double lean_error_m(const SheetFitResult& result) const;
+  std::string doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const;
   std::string why_no_hog_line(int too_thin) const;
 
   CameraSetup setup;
   GroundView view;
   HogRidgeFinder ridge_finder;
+  IceLight light;
+  ResponseCurve response;
   SheetFit fit;
 };
 
@@ -82,14 +89,15 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   nothing.reason = impl_->unusable(image);
   if (!nothing.reason.empty()) return nothing;
 
-  const auto ridges = impl_->ridge_finder.find(image);
+  impl_->light.read(image);
+  const auto ridges = impl_->ridge_finder.find(impl_->light);
   int too_thin = 0;
   const auto hog_lines = find_cross_candidates(ridges, impl_->ridge_finder, impl_->view, impl_->hog_range(prediction),
                                                most_hog_lines, &too_thin);
   nothing.reason = impl_->why_no_hog_line(too_thin);
   if (hog_lines.empty()) return nothing;
 
-  const auto points = find_edge_points(image, impl_->view, {.range_m = range_m});
+  const auto points = find_edge_points(impl_->light.half(), impl_->light.top(), impl_->view, {.range_m = range_m});
   const auto lines = find_line_candidates(down_ice_points(points), impl_->view.pixels_per_plane_unit(), most_lines);
   const LineClasses classes = classify(lines, impl_->view, {});
   if (sketch != nullptr) draw_candidates(hog_lines, classes.down_ice, impl_->view, *sketch);
@@ -97,11 +105,13 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   const auto shapes = choose_h(hog_lines, classes.down_ice, impl_->knowledge(prediction), impl_->view);
   nothing.reason = "no line that runs down-ice goes with what may be the hog line";
   for (std::size_t i = 0; i < std::min(shapes.size(), most_tries); ++i) {
-    const SheetPosePercept seen =
-        impl_->refine(image, impl_->levelled(shapes[i], points, prediction.sheet_width_m), stamp, sketch);
-    if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
-    if (seen.ok) return seen;
-    if (i == 0) nothing.reason = seen.reason;
+    const Start start = impl_->levelled(shapes[i], points, prediction.sheet_width_m);
+    for (const double within_px : search_px) {
+      const SheetPosePercept seen = impl_->refine(image, start, within_px, stamp, sketch);
+      if (seen.ok && sketch != nullptr) draw_chosen(shapes[i], impl_->view, *sketch);
+      if (seen.ok) return seen;
+      if (i == 0) nothing.reason = seen.reason;
+    }
   }
   return nothing;
 }
@@ -113,14 +123,14 @@ Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& poi
   Start start{.body = body_before(h.hog, h.centre_x_m, vote->lean_rad, view),
               .width_m = known_width_m,
               .lean_rad = vote->lean_rad,
-              .lean_sigma_rad = std::min(vote->sigma_rad, lean_sigma_rad)};
+              .lean_sigma_rad = std::clamp(vote->sigma_rad, least_lean_sigma_rad, lean_sigma_rad)};
   if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
   return start;
 }
 
 std::string LowView::Impl::unusable(const cv::Mat& image) const {
   if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3 && image.type() != CV_8UC1) return "the picture is not 8 bits a channel, colour or grey";
+  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
   if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
     return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
            std::to_string(setup.intrinsics.width_px) + "x" + std::to_string(setup.intrinsics.height_px);
@@ -150,33 +160,33 @@ HKnowledge LowView::Impl::knowledge(const LowViewPrediction& prediction) const {
   return known;
 }
 
-SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, Stamp stamp, LowViewSketch* sketch) {
+SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start, double within_px, Stamp stamp,
+                                       LowViewSketch* sketch) {
   SheetFitStart fit_start;
   Mount mount = setup.mount;
   mount.pitch_rad += start.lean_rad;
   fit_start.eMc = eMb(start.body) * bMc(mount);
-  fit_start.search_px = search_px;
+  fit_start.search_px = within_px;
   fit_start.sheet_width_m = start.width_m;
   fit_start.most_sigma_m = most_sigma_m;
   fit_start.pitch_offset_rad = start.lean_rad;
   fit_start.pitch_sigma_rad = start.lean_sigma_rad;
-  fit_start.roll_sigma_rad = roll_sigma_rad;
-  fit_start.height_sigma_m = height_sigma_m;
+  fit_start.roll_sigma_rad = low_mount::roll_sigma_rad;
+  fit_start.height_sigma_m = low_mount::height_sigma_m;
   const SheetFitResult& result = fit.fit(image, fit_start);
   SheetPosePercept seen;
   seen.stamp = stamp;
   seen.reason = result.ok ? doubt(result, start) : result.reason;
+  if (seen.reason.empty()) seen.reason = doubt_of_line(image, result);
   if (!seen.reason.empty()) return seen;
   if (sketch != nullptr) sketch->model = model_lines(result.eMc, setup, result.sheet_width_m);
-  return percept(result, stamp);
+  fill_low_percept(result, setup, seen);
+  return seen;
 }
 
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
-  const Eigen::Vector3d up = bMc(setup.mount).linear() * result.eMc.linear().row(2).transpose();
-  if (std::abs(up.x()) > 6.0 * lean_sigma_rad || std::abs(up.y()) > 6.0 * roll_sigma_rad) {
-    return "the fitted tilt is too far from the mount's";
-  }
+  if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return why;
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
   const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
   if (std::abs(result.body.y_m - start.body.y_m) > slack_m || std::abs(result.body.x_m - start.body.x_m) > 0.5 ||
@@ -185,43 +195,27 @@ std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& star
   }
   int others = 0;
   for (const FittedFeature& f : result.features) {
-    if (f.name != "hog_line") others += f.sites_used;
-    if (f.name == "hog_line" && (f.sites_used < 12 || f.sites_used < 0.3 * f.sites_tried)) {
+    const bool hog = f.name == "hog_line";
+    if (!hog) others += f.sites_used;
+    if (hog && (f.sites_used < 12 || f.sites_used < 0.3 * f.sites_tried)) {
       return "the hog line is not where the pose puts it";
+    }
+    if (f.name == "centre_line" && f.sites_tried >= 12 && f.sites_used < 0.4 * f.sites_tried) {
+      return "the centre line is not where the pose puts it";
+    }
+    if (f.name.ends_with("_ring") && f.sites_tried >= 40 && f.sites_used < 0.3 * f.sites_tried) {
+      return "the rings are not where the pose puts them";
     }
   }
   if (others < 12) return "nothing but the hog line is where the pose puts it";
+  // Where the centre line is not there either, hog line and sidelines must be there in full.
+  if (result.sites_used < 0.5 * result.sites_tried) return "less than half of the paint is where the pose puts it";
   return {};
 }
 
-SheetPosePercept LowView::Impl::percept(const SheetFitResult& result, Stamp stamp) const {
-  SheetPosePercept p;
-  p.ok = true;
-  p.stamp = stamp;
-  p.body = result.body;
-  p.sigma = result.sigma;
-  p.hog_distance_m = rules::tee_to_hog_m - result.body.y_m;
-  p.hog_distance_sigma_m = std::hypot(result.hog_distance_sigma_m, lean_error_m(result));
-  p.sigma.y_m = p.hog_distance_sigma_m;
-  p.sheet_width_m = result.sheet_width_m;
-  p.eMc = row_major(result.eMc);
-  p.residual_px = result.residual_px;
-  p.sites_used = result.sites_used;
-  p.sites_tried = result.sites_tried;
-  for (const FittedFeature& f : result.features) {
-    if (f.sites_used > 0) p.features.push_back(f.name);
-  }
-  return p;
-}
-
-// Without a ring the lean comes from sidelines, which are not laid as parallel as the fit takes them to be.
-double LowView::Impl::lean_error_m(const SheetFitResult& result) const {
-  const bool ring = std::any_of(result.features.begin(), result.features.end(),
-                                [](const FittedFeature& f) { return f.name.ends_with("_ring") && f.sites_used >= 24; });
-  if (ring) return least_error_m;
-  const double z = setup.mount.z_m;
-  const double ahead = rules::tee_to_hog_m - result.eMc.translation().y();
-  return std::hypot(least_error_m, sideline_lean_rad * (ahead * ahead + z * z) / z);
+std::string LowView::Impl::doubt_of_line(const cv::Mat& image, const SheetFitResult& result) const {
+  const Picture picture{image.data, image.cols, image.rows, image.channels(), image.step[0]};
+  return vision::doubt(weigh_hog_line(picture, response, {view.lens(), result.eMc, setup.ice}));
 }
 
 std::string LowView::Impl::why_no_hog_line(int too_thin) const {

@@ -1,111 +1,39 @@
 #include "hw/canopen/drive_config.hpp"
 
-#include <cmath>
-#include <cstdio>
-#include <numbers>
+#include "hw/canopen/config_checks.hpp"
 
 namespace hogline::hw {
 namespace {
 
-std::string complaint(const std::string& key, double value, const char* allowed) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return key + " is " + text + ", allowed: " + allowed;
-}
-
-std::optional<std::string> positive(const std::string& key, double value) {
-  if (std::isfinite(value) && value > 0.0) return std::nullopt;
-  return complaint(key, value, "finite and > 0");
-}
-
-std::optional<std::string> node_id(const std::string& key, std::uint8_t node) {
-  if (node >= 1 && node <= 127) return std::nullopt;
-  return complaint(key, node, "1..127");
-}
-
-std::optional<std::string> whole_milliseconds(const std::string& key, Duration span, int max_ms) {
-  if (span % std::chrono::milliseconds{1} == Duration{0} && span > Duration{0} &&
-      span <= std::chrono::milliseconds{max_ms}) {
-    return std::nullopt;
-  }
-  const std::string allowed = "whole milliseconds, 1.." + std::to_string(max_ms);
-  return complaint("timing." + key + " [ms]", seconds(span) * 1e3, allowed.c_str());
-}
-
-std::optional<std::string> ordered(const char* shorter_key, Duration shorter, const char* longer_key, Duration longer) {
-  if (shorter < longer) return std::nullopt;
-  return std::string{"timing."} + shorter_key + " must be shorter than timing." + longer_key;
-}
-
-/// The largest number the drive is sent must fit into its 32 bits.
-std::optional<std::string> fits_32_bits(const std::string& key, double value) {
-  if (value < 2147483647.0) return std::nullopt;
-  return complaint(key, value, "< 2147483647 drive units");
-}
-
 std::optional<std::string> wheel_error(const std::string& side, const WheelConfig& wheel) {
-  const auto key = [&side](const char* name) { return side + "." + name; };
-  if (wheel.name.empty()) return key("name") + " is empty";
-  if (auto error = node_id(key("node"), wheel.node)) return error;
-  if (wheel.vendor_id == 0) return complaint(key("vendor_id"), 0.0, "the drive's 1018:01, never 0");
-  if (wheel.product_code == 0) return complaint(key("product_code"), 0.0, "the drive's 1018:02, never 0");
-  if (wheel.direction != 1 && wheel.direction != -1) return complaint(key("direction"), wheel.direction, "+1 or -1");
-  if (auto error = positive(key("gear_ratio"), wheel.gear_ratio)) return error;
-  if (auto error = positive(key("position_counts_per_motor_rev"), wheel.position_counts_per_motor_rev)) return error;
-  if (auto error = positive(key("velocity_units_per_motor_rps"), wheel.velocity_units_per_motor_rps)) return error;
-  if (auto error = positive(key("acceleration_units_per_motor_rps2"), wheel.acceleration_units_per_motor_rps2)) {
-    return error;
-  }
-  if (auto error = positive(key("max_speed_radps"), wheel.max_speed_radps)) return error;
-  if (auto error = positive(key("quick_stop_radps2"), wheel.quick_stop_radps2)) return error;
-
-  const double motor_rev_per_wheel_rad = wheel.gear_ratio / (2.0 * std::numbers::pi);
-  const double speed_units = wheel.max_speed_radps * motor_rev_per_wheel_rad * wheel.velocity_units_per_motor_rps;
-  const double ramp_units = wheel.quick_stop_radps2 * motor_rev_per_wheel_rad * wheel.acceleration_units_per_motor_rps2;
-  if (auto error = fits_32_bits(key("max_speed_radps in drive units"), speed_units)) return error;
-  if (ramp_units < 1.0) return complaint(key("quick_stop_radps2 in drive units"), ramp_units, ">= 1");
-  return fits_32_bits(key("quick_stop_radps2 in drive units"), ramp_units);
-}
-
-std::optional<std::string> timing_error(const DriveTiming& timing) {
-  if (auto error = whole_milliseconds("control_period", timing.control_period, 255)) return error;
-  if (auto error = whole_milliseconds("rpdo_timeout", timing.rpdo_timeout, 65535)) return error;
-  if (auto error = whole_milliseconds("heartbeat_period", timing.heartbeat_period, 65535)) return error;
-  if (auto error = whole_milliseconds("heartbeat_timeout", timing.heartbeat_timeout, 65535)) return error;
-  if (auto error = whole_milliseconds("sdo_timeout", timing.sdo_timeout, 10000)) return error;
-  if (auto error = whole_milliseconds("boot_timeout", timing.boot_timeout, 600000)) return error;
-  if (auto error = whole_milliseconds("state_timeout", timing.state_timeout, 60000)) return error;
-  if (auto error = whole_milliseconds("quick_stop_timeout", timing.quick_stop_timeout, 1000)) return error;
-  if (auto error = whole_milliseconds("stop_margin", timing.stop_margin, 10000)) return error;
-  if (auto error = ordered("control_period", timing.control_period, "command_age_limit", timing.command_age_limit)) {
-    return error;
-  }
-  if (auto error = ordered("control_period", timing.control_period, "feedback_timeout", timing.feedback_timeout)) {
-    return error;
-  }
-  if (auto error = ordered("command_age_limit", timing.command_age_limit, "rpdo_timeout", timing.rpdo_timeout)) {
-    return error;
-  }
-  return ordered("heartbeat_period", timing.heartbeat_period, "heartbeat_timeout", timing.heartbeat_timeout);
+  if (auto error = identity_error(side + ".", identity(wheel))) return error;
+  return gearing_error(side + ".", gearing(wheel), wheel.max_speed_radps, wheel.quick_stop_radps2);
 }
 
 }  // namespace
 
+NodeIdentity identity(const WheelConfig& wheel) {
+  return {.name = wheel.name, .node = wheel.node, .vendor_id = wheel.vendor_id, .product_code = wheel.product_code};
+}
+
+AxisGearing gearing(const WheelConfig& wheel) {
+  return {.direction = wheel.direction,
+          .gear_ratio = wheel.gear_ratio,
+          .position_counts_per_motor_rev = wheel.position_counts_per_motor_rev,
+          .velocity_units_per_motor_rps = wheel.velocity_units_per_motor_rps,
+          .acceleration_units_per_motor_rps2 = wheel.acceleration_units_per_motor_rps2};
+}
+
 std::optional<std::string> config_error(const TwoWheelDriveConfig& config) {
   if (auto error = wheel_error("left", config.left)) return error;
   if (auto error = wheel_error("right", config.right)) return error;
-  if (auto error = node_id("master_node", config.master_node)) return error;
+  if (auto error = node_error("master_node", config.master_node)) return error;
   if (config.left.node == config.right.node || config.left.node == config.master_node ||
       config.right.node == config.master_node) {
     return "left.node, right.node and master_node must differ";
   }
   if (auto error = timing_error(config.timing)) return error;
-  if (auto error = positive("plausibility.standstill_radps", config.plausibility.standstill_radps)) return error;
-  if (auto error = positive("plausibility.speed_error_radps", config.plausibility.speed_error_radps)) return error;
-  if (auto error = positive("plausibility.speed_error_time [s]", seconds(config.plausibility.speed_error_time))) {
-    return error;
-  }
-  return positive("plausibility.position_mismatch_rad", config.plausibility.position_mismatch_rad);
+  return plausibility_error(config.plausibility);
 }
 
 }  // namespace hogline::hw

@@ -12,6 +12,23 @@ namespace hogline::hw {
 
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
+/// Which node, and what it must say it is.
+struct NodeIdentity {
+  std::string name;                ///< "left wheel"
+  std::uint8_t node = 0;           ///< 1..127
+  std::uint32_t vendor_id = 0;     ///< 1018:01
+  std::uint32_t product_code = 0;  ///< 1018:02
+};
+
+/// Between an axis in the robot's sense (a wheel, pan, tilt) and its drive's integers. "motor" is before the gear.
+struct AxisGearing {
+  int direction = 0;          ///< +1 or -1: the drive's positive sense turns the axis this way or the other
+  double gear_ratio = unset;  ///< motor revolutions per revolution of the axis
+  double position_counts_per_motor_rev = unset;      ///< of 6064 and 607A
+  double velocity_units_per_motor_rps = unset;       ///< of 60FF, 606C, 6081, for one revolution per second
+  double acceleration_units_per_motor_rps2 = unset;  ///< of 6083, 6084, 6085, for one revolution per second squared
+};
+
 /// One wheel's drive node. "motor" is before the gear, "wheel" after it.
 struct WheelConfig {
   std::string name;                ///< "left wheel"
@@ -26,6 +43,9 @@ struct WheelConfig {
   double max_speed_radps = unset;                    ///< of the wheel; a faster set-point is a fault
   double quick_stop_radps2 = unset;                  ///< of the wheel: the drive's quick-stop ramp
 };
+
+NodeIdentity identity(const WheelConfig& wheel);
+AxisGearing gearing(const WheelConfig& wheel);
 
 /// Deadlines. The defaults are those of doc/bus_maps.md for 200 Hz.
 struct DriveTiming {
@@ -42,7 +62,14 @@ struct DriveTiming {
   Duration stop_margin = std::chrono::milliseconds{300};        ///< beyond the ramp's own time, until standstill
 };
 
-/// What is physically possible, at the wheel.
+/// What an adapter sends for the whole bus. Exactly one does each: false where another adapter on the same bus, or the
+/// kernel's timer (socketcan/bcm_cyclic.hpp), does it.
+struct BusDuties {
+  bool sync = true;
+  bool heartbeat = true;
+};
+
+/// What is physically possible, at the axis.
 struct DrivePlausibility {
   double standstill_radps = unset;       ///< slower is standing
   double speed_error_radps = unset;      ///< measured against commanded ...
@@ -56,6 +83,7 @@ struct TwoWheelDriveConfig {
   std::uint8_t master_node = 0;  ///< 1..127, under which we send our heartbeat
   DriveTiming timing;
   DrivePlausibility plausibility;
+  BusDuties duties{};
 };
 
 /// Why the configuration can not be used: key, value, and what is allowed. Nothing if it can.

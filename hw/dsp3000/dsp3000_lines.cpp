@@ -33,7 +33,7 @@ std::optional<Measurement> parse_line(std::string_view line) {
   const auto [end, error] =
       std::from_chars(number.data(), number.data() + number.size(), rate_degps, std::chars_format::fixed);
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(rate_degps)) return std::nullopt;
-  return Measurement{rate_degps * std::numbers::pi / 180.0, flag == "1"};
+  return Measurement{.rate_radps = rate_degps * std::numbers::pi / 180.0, .valid = flag == "1"};
 }
 
 std::optional<Measurement> LineReader::finish_line() {
@@ -45,11 +45,11 @@ std::optional<Measurement> LineReader::finish_line() {
   return measurement;
 }
 
-std::optional<Measurement> LineReader::feed(std::string_view bytes) {
-  std::optional<Measurement> newest;
+std::vector<Measurement> LineReader::feed(std::string_view bytes) {
+  std::vector<Measurement> measurements;
   for (const char byte : bytes) {
     if (byte == '\r' || byte == '\n') {
-      if (const auto measurement = finish_line()) newest = measurement;
+      if (const auto measurement = finish_line()) measurements.push_back(*measurement);
     } else {
       line_ += byte;
       if (line_.size() > longest_line) {
@@ -59,7 +59,12 @@ std::optional<Measurement> LineReader::feed(std::string_view bytes) {
       }
     }
   }
-  return newest;
+  return measurements;
+}
+
+void LineReader::restart() {
+  line_.clear();
+  synchronised_ = false;
 }
 
 }  // namespace hogline::hw::dsp3000

@@ -15,8 +15,9 @@ class ModbusArm final : public Arm {
   ArmState state() const override;
   void fold() override { axis_.order({axis::arm::fold, 0}); }
   void unfold() override { axis_.order({axis::arm::unfold, 0}); }
-  /// Clears a latched error; an order is needed anew.
-  void rearm() { axis_.rearm(); }
+  void rearm() override { axis_.rearm(); }
+  /// An order that came too late to be carried out: latches.
+  void drop_order(const std::string& why, Stamp now) { axis_.refuse(DeviceErrorKind::timeout, why, now); }
 
  private:
   ModbusSession& session_;

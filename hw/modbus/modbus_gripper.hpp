@@ -25,8 +25,10 @@ class ModbusGripper final : public Gripper {
   void grip() override { jaws_.grip(); }
   void release() override { jaws_.release(); }
   void spin(double radps) override;
-  /// Clears latched errors; orders are needed anew. The operator's word that jaws without activation hold nothing.
-  void rearm();
+  void rearm() override;
+  /// An order for the jaws, or the belt, that came too late to be carried out: latches.
+  void drop_jaws_order(const std::string& why, Stamp now) { jaws_.refuse(DeviceErrorKind::timeout, why, now); }
+  void drop_spin_order(const std::string& why, Stamp now) { belt_.refuse(DeviceErrorKind::timeout, why, now); }
 
  private:
   ModbusSession& session_;

@@ -1,4 +1,4 @@
-// One Modbus line, TCP or RTU: the only file pair that knows libmodbus.
+// One Modbus line, TCP or RTU: the only file pair that knows libmodbus and file descriptors.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "hw/device_status.hpp"
+#include "hw/modbus/modbus_frames.hpp"
 
 extern "C" {
 typedef struct _modbus modbus_t;
@@ -23,8 +24,8 @@ struct ModbusTcp {
 
 struct ModbusRtu {
   std::string device;  ///< "/dev/serial/by-id/..."
-  int baud = 0;
-  char parity = 'N';  ///< 'N', 'E' or 'O'
+  int baud = 0;        ///< one that the serial driver knows by name: 9600, 19200, .., 115200, ..
+  char parity = 'N';   ///< 'N', 'E' or 'O'
   int data_bits = 8;
   int stop_bits = 1;
 };
@@ -41,7 +42,9 @@ struct ModbusFault {
   std::string what;
 };
 
-/// Not thread-safe. libmodbus's own error recovery stays off: with a dead server it does not return.
+/// libmodbus opens, sets up, flushes and closes the line. The exchange itself is made here: libmodbus 3.1.6 compares
+/// neither the unit nor the length of a TCP answer, and its own error recovery does not return while a server is dead.
+/// Not thread-safe.
 class ModbusTransport {
  public:
   /// Throws std::invalid_argument when the line can not be described to libmodbus, or a timeout is not positive.
@@ -60,10 +63,17 @@ class ModbusTransport {
   struct Free {
     void operator()(modbus_t* context) const;
   };
-  std::optional<ModbusFault> prepare(int unit);
+  using Deadline = std::chrono::steady_clock::time_point;
 
+  std::variant<modbus::Answer, ModbusFault> exchange(const modbus::Request& request);
+  std::optional<ModbusFault> send(std::span<const std::uint8_t> bytes, Deadline deadline);
+  std::variant<modbus::Answer, ModbusFault> receive(const modbus::Request& request, Deadline deadline);
+
+  modbus::Framing framing_;
+  std::chrono::microseconds timeout_;
   std::unique_ptr<modbus_t, Free> context_;
   bool open_ = false;
+  std::uint16_t transaction_ = 0;
 };
 
 }  // namespace hogline::hw

@@ -30,6 +30,8 @@ class RobotiqJaws {
   void step(ModbusSession& session, Stamp now);
   void grip();
   void release();
+  /// An order that must not be sent: latches, and the jaws stay as they are.
+  void refuse(DeviceErrorKind kind, const std::string& what, Stamp now) { latch_.latch(kind, what, now); }
   void rearm();
 
   JawState jaws() const { return jaws_; }

@@ -194,15 +194,28 @@ void CanopenDevice::on_frame(const CanFrame& frame, Stamp now) {
   if (frame.id == 0x000) return on_nmt(frame);
   if (frame.id == 0x080 && nmt_ == Nmt::operational) return on_sync(now);
   if (frame.id > 0x700 && frame.id <= 0x77F) return on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700), now);
-  if (frame.id == 0x600u + node_ && nmt_ != Nmt::stopped && !faults.sdo_silent) {
-    if (const std::optional<CanFrame> response = sdo_.on_request(frame)) bus_.send(*response);
-    return;
-  }
+  if (frame.id == 0x600u + node_) return on_sdo(frame);
   if (nmt_ != Nmt::operational) return;
   for (int i = 0; i < pdo_count; ++i) {
     const std::uint32_t cob_id = objects_.get(at(0x1400, i), 1);
     if ((cob_id & invalid_pdo) == 0 && (cob_id & 0x7FF) == frame.id) on_receive_pdo(i, frame, now);
   }
+}
+
+void CanopenDevice::on_sdo(const CanFrame& frame) {
+  if (nmt_ == Nmt::stopped || faults.sdo_silent) return;
+  const std::uint32_t object = (frame.data[1] | (std::uint32_t{frame.data[2]} << 8)) << 8 | frame.data[3];
+  const bool download = (frame.data[0] >> 5) == 1;
+  if (download && faults.sdo_ignores != 0 && object == faults.sdo_ignores) {
+    bus_.send({.id = 0x580u + node_, .length = 8, .data = {0x60, frame.data[1], frame.data[2], frame.data[3]}});
+    return;
+  }
+  std::optional<CanFrame> response = sdo_.on_request(frame);
+  if (!response) return;
+  const bool segment = (response->data[0] >> 5) == 0;
+  if (segment && faults.sdo_toggle_stuck) response->data[0] &= 0xEF;
+  if (!segment && faults.sdo_wrong_echo) response->data[3] ^= 1;
+  bus_.send(*response);
 }
 
 // ---- PDOs ----

@@ -31,6 +31,9 @@ struct DeviceFaults {
   bool tpdos_frozen = false;       ///< TPDOs leave on time, with the contents they had
   bool tpdos_short = false;        ///< TPDOs leave one byte too short
   bool sdo_silent = false;         ///< SDO requests are not answered
+  bool sdo_toggle_stuck = false;   ///< segments are answered without alternating the toggle bit
+  bool sdo_wrong_echo = false;     ///< answers name another object
+  std::uint32_t sdo_ignores = 0;   ///< writes to this object (index << 8 | sub) are confirmed and forgotten
   bool never_boots = false;        ///< from the next reset on it stays silent
 };
 
@@ -87,6 +90,7 @@ class CanopenDevice {
   void finish_booting(Stamp now);
   void on_frame(const CanFrame& frame, Stamp now);
   void on_nmt(const CanFrame& frame);
+  void on_sdo(const CanFrame& frame);
   void on_sync(Stamp now);
   void on_heartbeat(std::uint8_t node, Stamp now);
   void on_receive_pdo(int i, const CanFrame& frame, Stamp now);

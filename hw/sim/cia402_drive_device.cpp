@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hogline::hw::sim {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// A stop is complete when the axis stands, not when its ramp has ended: motor revolutions per second.
+constexpr double standstill_rps = 0.05;
 
 /// Allows exactly these values of an option code.
 template <typename... Values>
@@ -45,7 +49,10 @@ void Cia402DriveDevice::add_drive_objects() {
   objects.add(0x6041, 0, 2, ro, 0, true);
   objects.add(0x605A, 0, 2, rw, 2).guard = only(0, 1, 2, 5, 6);
   objects.add(0x605E, 0, 2, rw, 2).guard = only(0, 1, 2);
-  objects.add(0x6060, 0, 1, rw, 0, true).guard = only(0, 3, 9);
+  objects.add(0x6060, 0, 1, rw, 0, true).guard = [this](std::int64_t mode) -> std::uint32_t {
+    const bool has = mode == 0 || mode == 3 || mode == 9 || (mode == 1 && config_.profile_position);
+    return has ? 0 : 0x06090030;
+  };
   objects.add(0x6061, 0, 1, ro, 0, true);
   objects.add(0x6064, 0, 4, ro, 0, true);
   objects.add(0x606C, 0, 4, ro, 0, true);
@@ -59,7 +66,21 @@ void Cia402DriveDevice::add_drive_objects() {
   objects.add(0x60C2, 1, 1, rw, 1);
   objects.add(0x60C2, 2, 1, rw, -3).guard = only(-3, -4);
   objects.add(0x60FF, 0, 4, rw, 0, true);
-  objects.add(0x6502, 0, 4, ro, (1 << 2) | (1 << 8));  // supported modes: profile velocity, cyclic velocity
+  // Supported modes: profile velocity, cyclic velocity, perhaps profile position.
+  objects.add(0x6502, 0, 4, ro, (1 << 2) | (1 << 8) | (config_.profile_position ? 1 : 0));
+  if (config_.profile_position) add_profile_position_objects();
+}
+
+void Cia402DriveDevice::add_profile_position_objects() {
+  ObjectDictionary& objects = communication_.objects();
+  const ObjectAccess rw = ObjectAccess::read_write;
+  objects.add(0x607A, 0, 4, rw, 0, true);
+  objects.add(0x607D, 0, 1, ObjectAccess::constant, 2);
+  objects.add(0x607D, 1, 4, rw, std::numeric_limits<std::int32_t>::min());
+  objects.add(0x607D, 2, 4, rw, std::numeric_limits<std::int32_t>::max());
+  objects.add(0x6081, 0, 4, rw, 0, true);
+  objects.add(0x6067, 0, 4, rw, 10);
+  objects.add(0x6068, 0, 2, rw, 0);
 }
 
 // ---- what the communication says ----
@@ -121,7 +142,7 @@ AxisCommand Cia402DriveDevice::step(Stamp now, double dt_s, double axis_speed_ra
     state_ = State::switch_on_disabled;
   }
   obey_controlword(axis_speed_radps);
-  run_state(dt_s);
+  run_state(dt_s, axis_speed_radps);
   publish();
   return act(dt_s, axis_speed_radps);
 }
@@ -130,6 +151,7 @@ void Cia402DriveDevice::obey_controlword(double axis_speed_radps) {
   if (controlword_is_old_) return;
   const auto word = static_cast<std::uint16_t>(communication_.objects().get(0x6040));
   const bool reset_edge = (word & 0x80) != 0 && (last_controlword_ & 0x80) == 0;
+  if (state_ == State::operation_enabled) obey_set_point_bits(word);
   last_controlword_ = word;
 
   const bool voltage = (word & 0x02) != 0;
@@ -157,6 +179,7 @@ void Cia402DriveDevice::obey_controlword(double axis_speed_radps) {
       } else if (enable && switching_on_s_ >= config_.switch_on_time_s) {
         axis_.engage(axis_speed_radps);
         demand_rps_ = axis_speed_radps / two_pi;
+        profile_.hold(position_counts());
         state_ = State::operation_enabled;  // 4
       }
       return;
@@ -192,10 +215,11 @@ void Cia402DriveDevice::obey_controlword(double axis_speed_radps) {
   }
 }
 
-void Cia402DriveDevice::run_state(double dt_s) {
+void Cia402DriveDevice::run_state(double dt_s, double axis_speed_radps) {
   ObjectDictionary& objects = communication_.objects();
   if (!faults.mode_never_confirmed) objects.set(0x6061, 0, objects.get_signed(0x6060));
   switching_on_s_ += dt_s;
+  const bool stands = std::abs(axis_speed_radps) < standstill_rps * two_pi;
 
   switch (state_) {
     case State::operation_enabled:
@@ -203,12 +227,12 @@ void Cia402DriveDevice::run_state(double dt_s) {
     case State::quick_stop_active: {
       run_ramp(dt_s, quick_stop_deceleration());
       const bool stays = objects.get_signed(0x605A) >= 5;
-      if (demand_rps_ == 0.0 && !stays) state_ = State::switch_on_disabled;  // 12
+      if (demand_rps_ == 0.0 && stands && !stays) state_ = State::switch_on_disabled;  // 12
       return;
     }
     case State::fault_reaction_active:
       run_ramp(dt_s, fault_deceleration());
-      if (demand_rps_ == 0.0) state_ = State::fault;  // 14
+      if (demand_rps_ == 0.0 && stands) state_ = State::fault;  // 14
       return;
     default:
       demand_rps_ = 0.0;
@@ -216,10 +240,48 @@ void Cia402DriveDevice::run_state(double dt_s) {
   }
 }
 
+void Cia402DriveDevice::obey_set_point_bits(std::uint16_t word) {
+  if (communication_.objects().get_signed(0x6061) != 1 || faults.set_point_ignored) return;
+  if ((word & 0x10) == 0) return profile_.withdraw();
+  if ((last_controlword_ & 0x10) == 0) take_set_point(word);
+}
+
+// Bit 6: relative to where the axis is. A target beyond the software limits becomes the limit.
+void Cia402DriveDevice::take_set_point(std::uint16_t word) {
+  const ObjectDictionary& objects = communication_.objects();
+  double target = objects.get_signed(0x607A);
+  if ((word & 0x40) != 0) target += position_counts();
+  const double lowest = objects.get_signed(0x607D, 1);
+  const double highest = objects.get_signed(0x607D, 2);
+  profile_.offer(std::clamp(target, lowest, highest), (word & 0x20) != 0);
+}
+
+double Cia402DriveDevice::position_counts() const {
+  return static_cast<double>(axis_.encoder_counts()) / config_.axis.encoder_counts_per_rev *
+         config_.position_counts_per_rev;
+}
+
+void Cia402DriveDevice::run_profile_position(double dt_s) {
+  const ObjectDictionary& objects = communication_.objects();
+  const double counts_per_unit = config_.position_counts_per_rev / config_.velocity_units_per_rps;
+  const double counts_per_ramp_unit = config_.position_counts_per_rev / config_.acceleration_units_per_rps2;
+  const PositionProfileLimits limits{.velocity = objects.get(0x6081) * counts_per_unit,
+                                     .acceleration = objects.get(0x6083) * counts_per_ramp_unit,
+                                     .deceleration = objects.get(0x6084) * counts_per_ramp_unit,
+                                     .window = static_cast<double>(objects.get(0x6067)),
+                                     .window_time_s = objects.get(0x6068) * 1e-3};
+  const bool halt = (last_controlword_ & 0x100) != 0;
+  demand_rps_ = profile_.step(dt_s, position_counts(), halt, limits) / config_.position_counts_per_rev;
+}
+
 void Cia402DriveDevice::run_enabled(double dt_s) {
   const ObjectDictionary& objects = communication_.objects();
   const double target_rps = objects.get_signed(0x60FF) / config_.velocity_units_per_rps;
-  switch (objects.get_signed(0x6061)) {
+  const std::int32_t mode = objects.get_signed(0x6061);
+  if (mode != 1) profile_.hold(position_counts());
+  switch (mode) {
+    case 1:
+      return run_profile_position(dt_s);
     case 9:
       demand_rps_ = target_rps;
       return;
@@ -251,6 +313,21 @@ double Cia402DriveDevice::fault_deceleration() const {
   return objects.get(objects.get_signed(0x605E) == 1 ? 0x6084 : 0x6085) / config_.acceleration_units_per_rps2;
 }
 
+/// Bits 10 and 12 mean something else in each mode.
+std::uint16_t Cia402DriveDevice::mode_bits() const {
+  switch (communication_.objects().get_signed(0x6061)) {
+    case 1: {
+      const bool acknowledged = profile_.acknowledged() || faults.acknowledge_stuck;
+      const bool reached = profile_.reached() || faults.reached_at_once;
+      return static_cast<std::uint16_t>((reached ? 1u << 10 : 0u) | (acknowledged ? 1u << 12 : 0u));
+    }
+    case 9:
+      return 1u << 12;  // follows the commanded velocity
+    default:
+      return 0;
+  }
+}
+
 std::uint16_t Cia402DriveDevice::statusword() const {
   // Bit 4 voltage enabled, bit 9 remote: set whenever the drive is alive.
   constexpr std::uint16_t alive = 0x0210;
@@ -264,7 +341,7 @@ std::uint16_t Cia402DriveDevice::statusword() const {
     case State::switched_on:
       return alive | 0x23;
     case State::operation_enabled:
-      return alive | 0x27;
+      return static_cast<std::uint16_t>(alive | 0x27 | mode_bits());
     case State::quick_stop_active:
       return alive | 0x07;
     case State::fault_reaction_active:
@@ -278,8 +355,7 @@ std::uint16_t Cia402DriveDevice::statusword() const {
 void Cia402DriveDevice::publish() {
   ObjectDictionary& objects = communication_.objects();
   if (!faults.statusword_stuck) objects.set(0x6041, 0, statusword());
-  const double revolutions = static_cast<double>(axis_.encoder_counts()) / config_.axis.encoder_counts_per_rev;
-  objects.set(0x6064, 0, to_int32(revolutions * config_.position_counts_per_rev));
+  objects.set(0x6064, 0, to_int32(position_counts() * faults.position_scale));
   objects.set(0x606C, 0, std::llround(axis_.encoder_speed_rps() * config_.velocity_units_per_rps));
 }
 

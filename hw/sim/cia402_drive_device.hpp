@@ -1,4 +1,5 @@
-// A simulated CiA 402 drive on the bus, written from CiA 301 and 402: cyclic synchronous and profile velocity.
+// A simulated CiA 402 drive on the bus, written from CiA 301 and 402: profile velocity, cyclic synchronous velocity
+// and, where the drive has it, profile position.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +7,7 @@
 
 #include "hw/sim/canopen_device.hpp"
 #include "hw/sim/drive_axis.hpp"
+#include "hw/sim/position_profile.hpp"
 
 namespace hogline::hw::sim {
 
@@ -16,6 +18,7 @@ struct Cia402DriveConfig {
   double velocity_units_per_rps = 0.0;       ///< of 606C and 60FF, per motor revolution per second
   double acceleration_units_per_rps2 = 0.0;  ///< of 6083, 6084, 6085
   double switch_on_time_s = 0.0;             ///< how long transition 3 takes
+  bool profile_position = false;             ///< has mode 1
 };
 
 /// What a test can break in the drive beyond its communication (`communication().faults`).
@@ -24,6 +27,10 @@ struct DriveFaults {
   bool quick_stop_ignored = false;    ///< bit 2 of the controlword has no effect
   bool mode_never_confirmed = false;  ///< 6061 stays 0
   bool speed_stuck = false;           ///< the axis keeps the speed it is driven with
+  bool set_point_ignored = false;     ///< statusword bit 12 never answers controlword bit 4
+  bool acknowledge_stuck = false;     ///< statusword bit 12 stays up
+  bool reached_at_once = false;       ///< statusword bit 10 is up wherever the axis is
+  double position_scale = 1.0;        ///< of 6064: a wrong encoder resolution or, negative, sense
 };
 
 class Cia402DriveDevice final : private CanopenDevice::Application {
@@ -67,13 +74,19 @@ class Cia402DriveDevice final : private CanopenDevice::Application {
 
   void add_drive_objects();
   void obey_controlword(double axis_speed_radps);
-  void run_state(double dt_s);
+  void run_state(double dt_s, double axis_speed_radps);
+  void add_profile_position_objects();
   void run_enabled(double dt_s);
+  void obey_set_point_bits(std::uint16_t word);
+  void take_set_point(std::uint16_t word);
+  void run_profile_position(double dt_s);
+  double position_counts() const;
   void run_ramp(double dt_s, double deceleration_rps2);
   double quick_stop_deceleration() const;
   double fault_deceleration() const;
   void start_quick_stop();
   void publish();
+  std::uint16_t mode_bits() const;
   std::uint16_t statusword() const;
   AxisCommand act(double dt_s, double axis_speed_radps);
 
@@ -85,6 +98,7 @@ class Cia402DriveDevice final : private CanopenDevice::Application {
   bool controlword_is_old_ = false;  ///< from before the communication was lost
   double demand_rps_ = 0.0;          ///< the ramp generator's output, motor revolutions per second
   double switching_on_s_ = 0.0;
+  PositionProfile profile_;
   AxisPower dead_axis_ = AxisPower::unpowered;
 };
 

@@ -1,4 +1,4 @@
-// The simulated jaws, spin belt and folding arm behind one Modbus TCP server.
+// The simulated jaws, spin belt and folding arm behind one Modbus server.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,10 @@ class ModbusDevices {
                 std::uint64_t seed, Stamp start);
 
   int port() const { return server_.port(); }
+  /// The same devices over RTU on a pseudo terminal: the path of the end that a client opens. After a restart() the
+  /// path is another one.
+  std::string serve_rtu() { return server_.serve_rtu(); }
+  std::string rtu_path() const { return server_.rtu_path(); }
   void step(Stamp now);
 
   /// What the devices do to the world.

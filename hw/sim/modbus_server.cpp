@@ -1,11 +1,13 @@
 #include "hw/sim/modbus_server.hpp"
 
 #include <arpa/inet.h>
-#include <modbus/modbus.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <pty.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,121 +16,124 @@
 #include <system_error>
 #include <utility>
 
+#include "hw/sim/modbus_wire.hpp"
+
 namespace hogline::hw::sim {
 
 namespace {
 
-struct FreeContext {
-  void operator()(modbus_t* context) const { modbus_free(context); }
+// An RTU frame ends with a silence of 3.5 characters (1.75 ms above 19200 baud); a pseudo terminal has no baud rate.
+constexpr int silence_ms = 5;
+
+struct Line {
+  int descriptor = -1;
+  ModbusWire wire = ModbusWire::tcp;
+  ModbusBytes received{};
+  ModbusBytes unsent{};    ///< what a late server still owes
+  bool forgotten = false;  ///< half open: never looked at again
 };
-struct FreeMapping {
-  void operator()(modbus_mapping_t* mapping) const { modbus_mapping_free(mapping); }
-};
-
-struct MappedUnit {
-  ModbusUnit unit;
-  std::unique_ptr<modbus_mapping_t, FreeMapping> mapping;
-};
-
-using Request = std::vector<std::uint8_t>;
-
-struct Connection {
-  int socket = -1;
-  Request unanswered;  ///< what a late server still owes
-};
-
-// Modbus TCP: seven bytes of header, the last of them the unit; then function, address, count or value.
-constexpr std::size_t unit_at = 6;
-constexpr std::size_t function_at = 7;
-constexpr std::size_t address_at = 8;
-constexpr std::size_t count_at = 10;
-constexpr std::size_t many_values_at = 13;
-
-constexpr int read_holding = 3;
-constexpr int read_input = 4;
-constexpr int write_one = 6;
-constexpr int write_many = 16;
-constexpr int illegal_function = 1;
-constexpr int illegal_value = 3;
-constexpr int no_such_unit = 11;
-
-int word_at(const Request& request, std::size_t place) { return request[place] << 8 | request[place + 1]; }
 
 [[noreturn]] void fail(const char* doing) { throw std::system_error(errno, std::generic_category(), doing); }
 
-// The values that a write carries; empty when its lengths contradict each other.
-std::vector<std::uint16_t> values_of(const Request& request) {
-  std::vector<std::uint16_t> values;
-  if (request[function_at] == write_one) return {static_cast<std::uint16_t>(word_at(request, count_at))};
-  const auto count = static_cast<std::size_t>(word_at(request, count_at));
-  if (request.size() != many_values_at + 2 * count || request[many_values_at - 1] != 2 * count) return {};
-  for (std::size_t i = 0; i < count; ++i) {
-    values.push_back(static_cast<std::uint16_t>(word_at(request, many_values_at + 2 * i)));
+void send_all(int descriptor, std::span<const std::uint8_t> bytes, ModbusWire wire) {
+  while (!bytes.empty()) {
+    const auto sent = wire == ModbusWire::tcp ? send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                                              : write(descriptor, bytes.data(), bytes.size());
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return;  // the other end is gone
+    bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
-  return values;
+}
+
+void reset_connection(int socket) {
+  const linger at_once{1, 0};
+  setsockopt(socket, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
 }
 
 }  // namespace
 
 struct ModbusServer::Impl {
-  std::vector<MappedUnit> units;
-  ModbusServerFaults faults;  ///< under the devices' mutex
-  std::unique_ptr<modbus_t, FreeContext> context;
+  explicit Impl(std::vector<ModbusUnit> units) : slave(std::move(units)) {}
+
+  ModbusSlave slave;          ///< under the devices' mutex
+  ModbusServerFaults faults;  ///< likewise
   int listener = -1;
   int wake = -1;
-  std::vector<Connection> connections;
+  int terminal = -1;        ///< our end of the pseudo terminal
+  int terminal_other = -1;  ///< held open, so that a client may come and go
+  std::vector<Line> lines;
 
-  MappedUnit* find(int number) {
-    const auto it = std::find_if(units.begin(), units.end(), [&](const auto& u) { return u.unit.unit == number; });
-    return it == units.end() ? nullptr : &*it;
-  }
-  bool receive(Connection& connection, std::mutex& devices);
-  void handle(Connection& connection, Request request);
-  void answer(const Request& request);
-  int carry_out(MappedUnit& unit, const Request& request);
-  void reply_exception(const Request& request, int code) {
-    modbus_reply_exception(context.get(), request.data(), static_cast<unsigned>(code));
-  }
+  void serve(std::mutex& devices);
+  void accept_connection();
+  bool receive(Line& line, std::mutex& devices);
+  bool handle(Line& line, const ModbusRequest& request);
+  bool deliver(Line& line, const ModbusRequest& request, ModbusBytes answer);
+  void close_all();
 };
 
 ModbusServer::ModbusServer(std::vector<ModbusUnit> units, std::mutex& devices)
-    : devices_(devices), impl_(std::make_unique<Impl>()) {
-  for (auto& unit : units) {
-    std::unique_ptr<modbus_mapping_t, FreeMapping> mapping(modbus_mapping_new_start_address(
-        0, 0, 0, 0, static_cast<unsigned>(unit.holding_start), static_cast<unsigned>(unit.holding_count),
-        static_cast<unsigned>(unit.input_start), static_cast<unsigned>(unit.input_count)));
-    if (!mapping) fail("Modbus mapping");
-    impl_->units.push_back({std::move(unit), std::move(mapping)});
-  }
+    : devices_(devices), impl_(std::make_unique<Impl>(std::move(units))) {
   start();
 }
 
 ModbusServer::~ModbusServer() { stop(); }
 
 void ModbusServer::start() {
-  impl_->context.reset(modbus_new_tcp("127.0.0.1", port_));
-  if (!impl_->context) fail("Modbus context");
-  impl_->listener = modbus_tcp_listen(impl_->context.get(), 8);
-  if (impl_->listener < 0) fail("listening on 127.0.0.1");
+  impl_->listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (impl_->listener < 0) fail("socket");
+  const int yes = 1;
+  setsockopt(impl_->listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port_));
   socklen_t length = sizeof address;
+  if (bind(impl_->listener, reinterpret_cast<sockaddr*>(&address), length) != 0) fail("binding 127.0.0.1");
+  if (listen(impl_->listener, 8) != 0) fail("listening on 127.0.0.1");
   getsockname(impl_->listener, reinterpret_cast<sockaddr*>(&address), &length);
   port_ = ntohs(address.sin_port);
   impl_->wake = eventfd(0, EFD_CLOEXEC);
   if (impl_->wake < 0) fail("eventfd");
-  thread_ = std::thread([this] { serve(); });
+  if (serves_rtu_) open_terminal();
+  thread_ = std::thread([this] { impl_->serve(devices_); });
+}
+
+void ModbusServer::open_terminal() {
+  std::array<char, 128> path{};
+  if (openpty(&impl_->terminal, &impl_->terminal_other, nullptr, nullptr, nullptr) != 0 ||
+      ttyname_r(impl_->terminal_other, path.data(), path.size()) != 0) {
+    fail("opening a pseudo terminal");
+  }
+  termios settings{};
+  tcgetattr(impl_->terminal_other, &settings);
+  cfmakeraw(&settings);
+  tcsetattr(impl_->terminal_other, TCSANOW, &settings);
+  impl_->lines.push_back({.descriptor = impl_->terminal, .wire = ModbusWire::rtu});
+  rtu_path_ = path.data();
+}
+
+std::string ModbusServer::serve_rtu() {
+  if (serves_rtu_) return rtu_path_;
+  stop();
+  serves_rtu_ = true;
+  start();
+  return rtu_path_;
 }
 
 void ModbusServer::stop() {
   if (!thread_.joinable()) return;
   eventfd_write(impl_->wake, 1);
   thread_.join();
-  for (const auto& connection : impl_->connections) close(connection.socket);
-  impl_->connections.clear();
-  close(impl_->listener);
-  close(impl_->wake);
-  // The context still names the last connection's socket, which is closed.
-  modbus_set_socket(impl_->context.get(), -1);
+  impl_->close_all();
+}
+
+void ModbusServer::Impl::close_all() {
+  for (const auto& line : lines) close(line.descriptor);
+  lines.clear();
+  if (terminal_other >= 0) close(terminal_other);
+  terminal = terminal_other = -1;
+  close(listener);
+  close(wake);
 }
 
 void ModbusServer::restart() {
@@ -138,69 +143,83 @@ void ModbusServer::restart() {
 void ModbusServer::set_faults(const ModbusServerFaults& faults) {
   const std::lock_guard lock(devices_);
   impl_->faults = faults;
+  impl_->slave.freeze_inputs(faults.freeze_inputs);
 }
 
-void ModbusServer::serve() {
-  auto& connections = impl_->connections;
+void ModbusServer::Impl::serve(std::mutex& devices) {
   for (;;) {
-    std::vector<pollfd> waiting{{impl_->wake, POLLIN, 0}, {impl_->listener, POLLIN, 0}};
-    for (const auto& connection : connections) waiting.push_back({connection.socket, POLLIN, 0});
-    if (poll(waiting.data(), waiting.size(), -1) < 0) continue;
-    if (waiting[0].revents != 0) return;
-    for (std::size_t i = connections.size(); i-- > 0;) {
-      if (waiting[i + 2].revents == 0 || impl_->receive(connections[i], devices_)) continue;
-      close(connections[i].socket);
-      connections.erase(connections.begin() + static_cast<std::ptrdiff_t>(i));
+    std::vector<pollfd> waiting{{wake, POLLIN, 0}, {listener, POLLIN, 0}};
+    bool frame_under_way = false;
+    for (const auto& line : lines) {
+      waiting.push_back({line.forgotten ? -1 : line.descriptor, POLLIN, 0});
+      frame_under_way = frame_under_way || (line.wire == ModbusWire::rtu && !line.received.empty());
     }
-    if (waiting[1].revents == 0) continue;
-    const int socket = accept4(impl_->listener, nullptr, nullptr, SOCK_CLOEXEC);
-    if (socket >= 0) connections.push_back({socket, {}});
+    const int ready = poll(waiting.data(), waiting.size(), frame_under_way ? silence_ms : -1);
+    if (ready < 0) continue;
+    if (ready == 0) {
+      for (auto& line : lines) line.received.clear();
+    }
+    if (waiting[0].revents != 0) return;
+    for (std::size_t i = lines.size(); i-- > 0;) {
+      if (waiting[i + 2].revents == 0 || receive(lines[i], devices)) continue;
+      close(lines[i].descriptor);
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (waiting[1].revents != 0) accept_connection();
   }
 }
 
-// One request. False when the connection is gone.
-bool ModbusServer::Impl::receive(Connection& connection, std::mutex& devices) {
-  modbus_set_socket(context.get(), connection.socket);
-  std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> buffer{};
-  const int length = modbus_receive(context.get(), buffer.data());
-  if (length < 0) return false;
-  if (static_cast<std::size_t>(length) < count_at + 2) return true;
+void ModbusServer::Impl::accept_connection() {
+  const int socket = accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+  if (socket < 0) return;
+  const int yes = 1;
+  setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  lines.push_back({.descriptor = socket, .wire = ModbusWire::tcp});
+}
+
+// Whatever has arrived. False when the line is to be closed.
+bool ModbusServer::Impl::receive(Line& line, std::mutex& devices) {
   const std::lock_guard lock(devices);
-  handle(connection, Request(buffer.begin(), buffer.begin() + length));
+  if (faults.half_open && line.wire == ModbusWire::tcp) {
+    line.forgotten = true;
+    return true;
+  }
+  std::array<std::uint8_t, 512> buffer{};
+  const auto got = read(line.descriptor, buffer.data(), buffer.size());
+  if (got < 0 && errno == EINTR) return true;
+  if (got <= 0) return false;
+  line.received.insert(line.received.end(), buffer.begin(), buffer.begin() + got);
+  while (const auto request = take_request(line.wire, line.received)) {
+    if (!handle(line, *request)) return false;
+  }
   return true;
 }
 
-void ModbusServer::Impl::handle(Connection& connection, Request request) {
-  if (!connection.unanswered.empty()) answer(std::exchange(connection.unanswered, {}));
-  if (faults.stalled) return;
-  if (faults.exception != 0) return reply_exception(request, faults.exception);
-  auto* unit = find(request[unit_at]);
-  if (unit == nullptr) return reply_exception(request, no_such_unit);
-  if (const int code = carry_out(*unit, request)) return reply_exception(request, code);
-  if (faults.silent) return;
+bool ModbusServer::Impl::handle(Line& line, const ModbusRequest& request) {
+  if (!line.unsent.empty()) send_all(line.descriptor, std::exchange(line.unsent, {}), line.wire);
+  if (faults.stalled) return true;
+  if (line.wire == ModbusWire::rtu && !slave.knows(request.unit)) return true;
+  const auto data = faults.exception != 0 ? ModbusSlave::exception(request.data, faults.exception)
+                                          : slave.answer(request.unit, request.data);
+  return deliver(line, request, wrap_answer(line.wire, request, data));
+}
+
+// Says the answer, or what the faults make of it. False when the line is to be closed.
+bool ModbusServer::Impl::deliver(Line& line, const ModbusRequest& request, ModbusBytes answer) {
+  if (faults.silent) return true;
+  if (faults.tamper) answer = faults.tamper(request.raw, std::move(answer));
   if (faults.late) {
-    connection.unanswered = std::move(request);
-    return;
+    line.unsent = std::move(answer);
+    return true;
   }
-  answer(request);
-}
-
-int ModbusServer::Impl::carry_out(MappedUnit& unit, const Request& request) {
-  const int function = request[function_at];
-  if (function == read_holding || function == read_input) return 0;
-  if (function != write_one && function != write_many) return illegal_function;
-  const auto values = values_of(request);
-  if (values.empty()) return illegal_value;
-  return unit.unit.write(word_at(request, address_at), values);
-}
-
-void ModbusServer::Impl::answer(const Request& request) {
-  auto* unit = find(request[unit_at]);
-  if (unit == nullptr) return;
-  if (!faults.freeze_inputs) {
-    unit->unit.read_inputs({unit->mapping->tab_input_registers, static_cast<std::size_t>(unit->unit.input_count)});
+  if (!faults.reset_mid_frame) {
+    send_all(line.descriptor, answer, line.wire);
+    return true;
   }
-  modbus_reply(context.get(), request.data(), static_cast<int>(request.size()), unit->mapping.get());
+  send_all(line.descriptor, std::span(answer).first(answer.size() / 2), line.wire);
+  if (line.wire == ModbusWire::rtu) return true;
+  reset_connection(line.descriptor);
+  return false;
 }
 
 }  // namespace hogline::hw::sim

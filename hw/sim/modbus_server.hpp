@@ -1,35 +1,28 @@
-// A Modbus TCP server on the loopback interface, with faults to order. Knows sockets and units, no device.
+// A Modbus server on the loopback interface and, where asked for, on a pseudo terminal as RTU; with faults to order.
+// Knows sockets and units, no device.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
-#include <span>
+#include <string>
 #include <thread>
 #include <vector>
 
-namespace hogline::hw::sim {
+#include "hw/sim/modbus_slave.hpp"
 
-/// One unit behind the server. The callbacks are made in the server's thread, with its mutex held.
-struct ModbusUnit {
-  int unit = 0;
-  int holding_start = 0;
-  int holding_count = 0;
-  int input_start = 0;
-  int input_count = 0;
-  std::function<int(int address, std::span<const std::uint16_t> values)> write;  ///< gives an exception code, 0 is good
-  std::function<void(std::span<std::uint16_t> inputs)> read_inputs;
-};
+namespace hogline::hw::sim {
 
 /// Faults that the server commits until told otherwise.
 struct ModbusServerFaults {
-  bool stalled = false;        ///< accepts and reads, never carries out, never answers
-  bool silent = false;         ///< carries out, never answers
-  bool late = false;           ///< each answer waits until the next request of its connection arrives
-  int exception = 0;           ///< every request gets this exception code
-  bool freeze_inputs = false;  ///< input registers keep their values
+  bool stalled = false;          ///< accepts and reads, never carries out, never answers
+  bool silent = false;           ///< carries out, never answers
+  bool late = false;             ///< each answer waits until the next request of its line arrives
+  int exception = 0;             ///< every request gets this exception code
+  bool freeze_inputs = false;    ///< input registers keep their values
+  bool reset_mid_frame = false;  ///< sends half of an answer, then resets the connection
+  bool half_open = false;        ///< forgets every connection as soon as it is used: nothing is read or answered on it
+  /// Changes the bytes of an answer before they are sent.
+  std::function<ModbusBytes(const ModbusBytes& request, ModbusBytes answer)> tamper{};
 };
 
 class ModbusServer {
@@ -41,20 +34,25 @@ class ModbusServer {
   ModbusServer& operator=(const ModbusServer&) = delete;
 
   int port() const { return port_; }
+  /// Also answers RTU on a pseudo terminal from now on; the path of its other end. A unit that is not there is silent.
+  std::string serve_rtu();
   void set_faults(const ModbusServerFaults& faults);
-  /// Closes every connection and the listening socket; when it returns they are closed.
+  /// Closes every connection, the listening socket and the pseudo terminal; when it returns they are closed.
   void stop();
-  /// Listens again, on the same port.
+  /// Listens again, on the same port; the pseudo terminal gets a new path.
   void restart();
+  std::string rtu_path() const { return rtu_path_; }
 
  private:
   struct Impl;
   void start();
-  void serve();
+  void open_terminal();
 
   std::mutex& devices_;
   std::unique_ptr<Impl> impl_;
   int port_ = 0;
+  bool serves_rtu_ = false;
+  std::string rtu_path_;
   std::thread thread_;
 };
 

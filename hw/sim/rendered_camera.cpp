@@ -11,6 +11,10 @@
 namespace hogline::hw::sim {
 namespace {
 
+constexpr Duration late_by = std::chrono::milliseconds(120);
+constexpr Duration back_by = std::chrono::milliseconds(100);
+constexpr Duration ahead_by = std::chrono::milliseconds(200);
+constexpr double glare_level = 4.0;      // of full scale
 constexpr double covered_level = 0.004;  // of full scale: what leaks in when the head is folded away
 
 // A standard normal number that belongs to a frame.
@@ -70,7 +74,8 @@ cv::Mat RenderedCamera::take(std::uint64_t id, Stamp stamp) const {
   exposure.eMc = body.eMb * bMc_;
   exposure.velocity = carried(body, exposure.eMc);
   exposure.duration_s = timing_.exposure_s;
-  const bool uncovered = fault_ != Fault::black && (world_.uncovered == nullptr || world_.uncovered(stamp));
+  const bool blind = fault_ == Fault::black || fault_ == Fault::saturated;
+  const bool uncovered = !blind && (world_.uncovered == nullptr || world_.uncovered(stamp));
   if (uncovered && world_.things != nullptr) world_.things(stamp, exposure);
 
   cv::Mat bgr;
@@ -78,13 +83,13 @@ cv::Mat RenderedCamera::take(std::uint64_t id, Stamp stamp) const {
   if (uncovered) {
     renderer_.render(exposure, frame_seed, bgr);
   } else {
-    renderer_.render_darkness(covered_level, frame_seed, bgr);
+    renderer_.render_darkness(fault_ == Fault::saturated ? glare_level : covered_level, frame_seed, bgr);
   }
   return bgr;
 }
 
 std::optional<Frame> RenderedCamera::latest(Stamp now) {
-  const auto id = newest(now);
+  const auto id = newest(fault_ == Fault::late ? now - late_by : now);
   if (!id || (given_ && *id <= *given_)) return std::nullopt;
   given_ = id;
   if (fault_ == Fault::stopped) return std::nullopt;
@@ -92,7 +97,10 @@ std::optional<Frame> RenderedCamera::latest(Stamp now) {
     if (!last_) return std::nullopt;
     return Frame{last_->bgr.clone(), last_->stamp, *id};
   }
+  if (fault_ == Fault::repeated && last_) return Frame{last_->bgr.clone(), stamp_of(*id), *id};
   Frame frame{take(*id, stamp_of(*id)), stamp_of(*id), *id};
+  if (fault_ == Fault::time_back) frame.stamp -= back_by;
+  if (fault_ == Fault::ahead) frame.stamp += ahead_by;
   last_ = Frame{frame.bgr, frame.stamp, frame.id};
   return frame;
 }

@@ -44,13 +44,19 @@ class RenderedCamera final : public Camera {
 
   std::optional<Frame> latest(Stamp now) override;
   std::optional<DeviceError> error() const override { return std::nullopt; }
+  void rearm() override {}
 
   /// Faults, from the next call of latest() on.
   enum class Fault {
     none,
-    frozen,   ///< delivers the last picture again and again, with new numbers but its old stamp
-    stopped,  ///< delivers nothing
-    black,    ///< delivers on time, but the picture is dark
+    frozen,     ///< delivers the last picture again and again, with new numbers but its old stamp
+    stopped,    ///< delivers nothing
+    black,      ///< delivers on time, but the picture is dark
+    saturated,  ///< ... every pixel is at the sensor's end
+    repeated,   ///< ... the last picture again and again, with new numbers and stamps
+    late,       ///< delivers 0.12 s later than it should
+    time_back,  ///< its stamps go back by 0.1 s
+    ahead,      ///< its stamps lie 0.2 s ahead: its clock is another one
   };
   void inject(Fault fault) { fault_ = fault; }
 

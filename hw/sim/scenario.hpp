@@ -101,11 +101,13 @@ struct ArmScenario {
 };
 
 struct GyroScenario {
-  double line_rate_hz = 0.0;  ///< lines a second; the DSP-3000 gives 100 within 3 %
+  double line_rate_hz = 0.0;  ///< readings a second; the DSP-3000 gives 100 (text) or 1000 (binary) within 3 %
   double bias_radps = 0.0;
   double scale_error = 0.0;  ///< output = (1 + error) * rate + bias + noise
   double angle_random_walk_rad_per_sqrt_s = 0.0;
-  double latency_s = 0.0;  ///< from the measured moment to the line's last byte
+  double latency_s = 0.0;     ///< from the measured moment to the reading's last byte
+  double latitude_rad = 0.0;  ///< of the hall: the gyro feels the earth turn
+  bool binary = false;        ///< the variant with words instead of text
 };
 
 struct CameraScenario {

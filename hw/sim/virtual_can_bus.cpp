@@ -24,6 +24,7 @@ class VirtualCanBus::Endpoint final : public CanBus {
   }
 
   bool up() const override { return bus_.up_ && plugged; }
+  bool error_passive() const override { return passive; }
 
   void take(const StampedCanFrame& received) {
     if (!plugged) return;
@@ -31,6 +32,7 @@ class VirtualCanBus::Endpoint final : public CanBus {
   }
 
   bool plugged = true;
+  bool passive = false;
   std::deque<StampedCanFrame> waiting;  ///< stamped with the moment of send()
   std::deque<StampedCanFrame> unread;
 
@@ -45,7 +47,7 @@ VirtualCanBus::~VirtualCanBus() = default;
 CanBus& VirtualCanBus::make_endpoint() { return endpoints_.emplace_back(*this); }
 
 void VirtualCanBus::deliver() {
-  while (up_) {
+  while (up_ && !stuck_) {
     const std::optional<Stamp> start = next_start();
     if (!start) return;
     Endpoint* sender = arbitrate(*start);
@@ -87,6 +89,7 @@ VirtualCanBus::Endpoint* VirtualCanBus::arbitrate(Stamp start) {
 }
 
 void VirtualCanBus::transmit(Endpoint& sender, Stamp end) {
+  if (sender.waiting.size() > 1 && happens(reordering_)) std::swap(sender.waiting[0].frame, sender.waiting[1].frame);
   StampedCanFrame received{sender.waiting.front().frame, end};
   sender.waiting.pop_front();
 
@@ -98,6 +101,7 @@ void VirtualCanBus::transmit(Endpoint& sender, Stamp end) {
     const auto bit = static_cast<std::size_t>(random_() % (std::uint64_t{8} * received.frame.length));
     received.frame.data[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
   }
+  if (tamper_) tamper_(received.frame);
   const int copies = happens(config_.duplication) ? 2 : 1;
   for (int i = 0; i < copies; ++i) put_on_bus(sender, received);
 }
@@ -128,15 +132,21 @@ void VirtualCanBus::set_up(bool up) {
   for (Endpoint& endpoint : endpoints_) endpoint.waiting.clear();
 }
 
-void VirtualCanBus::set_endpoint_up(const CanBus& endpoint, bool up) {
-  for (Endpoint& candidate : endpoints_) {
-    if (static_cast<const CanBus*>(&candidate) != &endpoint) continue;
-    candidate.plugged = up;
-    if (!up) candidate.waiting.clear();
-    return;
-  }
-  assert(false && "not an endpoint of this bus");
+VirtualCanBus::Endpoint& VirtualCanBus::find(const CanBus& endpoint) {
+  const auto found = std::find_if(endpoints_.begin(), endpoints_.end(), [&endpoint](const Endpoint& candidate) {
+    return static_cast<const CanBus*>(&candidate) == &endpoint;
+  });
+  assert(found != endpoints_.end() && "not an endpoint of this bus");
+  return *found;
 }
+
+void VirtualCanBus::set_endpoint_up(const CanBus& endpoint, bool up) {
+  Endpoint& found = find(endpoint);
+  found.plugged = up;
+  if (!up) found.waiting.clear();
+}
+
+void VirtualCanBus::set_error_passive(const CanBus& endpoint, bool passive) { find(endpoint).passive = passive; }
 
 void VirtualCanBus::set_faults(double loss, double duplication, double corruption) {
   config_.loss = loss;

@@ -48,10 +48,19 @@ class VirtualCanBus {
   /// The same for one endpoint only: its adapter is unplugged. Precondition: made by this bus.
   void set_endpoint_up(const CanBus& endpoint, bool up);
 
+  /// What one endpoint's controller says of itself. Precondition: made by this bus.
+  void set_error_passive(const CanBus& endpoint, bool passive);
+
   /// Changes the chances of loss, duplication and corruption from now on.
   void set_faults(double loss, double duplication, double corruption);
+  /// The chance of a frame to be overtaken by the next one of the same endpoint.
+  void set_reordering(double chance) { reordering_ = chance; }
+  /// While set nothing leaves, as if nobody acknowledged: frames wait up to send_queue, and come out afterwards.
+  void set_stuck(bool stuck) { stuck_ = stuck; }
   /// Frames for which `passes` is false vanish; an empty function lets all pass.
   void set_filter(std::function<bool(const CanFrame&)> passes) { filter_ = std::move(passes); }
+  /// Changes frames on their way; an empty function lets all pass as they are.
+  void set_tamper(std::function<void(CanFrame&)> change) { tamper_ = std::move(change); }
   /// Sees every frame that was on the bus, as it was on the bus.
   void set_tap(std::function<void(const StampedCanFrame&)> tap) { tap_ = std::move(tap); }
 
@@ -64,6 +73,7 @@ class VirtualCanBus {
   Endpoint* arbitrate(Stamp start);
   void transmit(Endpoint& sender, Stamp end);
   void put_on_bus(const Endpoint& sender, const StampedCanFrame& received);
+  Endpoint& find(const CanBus& endpoint);
   Duration wire_time(const CanFrame& frame) const;
   bool happens(double probability);
 
@@ -71,8 +81,11 @@ class VirtualCanBus {
   VirtualCanBusConfig config_;
   std::list<Endpoint> endpoints_;
   bool up_ = true;
+  bool stuck_ = false;
+  double reordering_ = 0.0;
   Stamp free_at_{};
   std::function<bool(const CanFrame&)> filter_;
+  std::function<void(CanFrame&)> tamper_;
   std::function<void(const StampedCanFrame&)> tap_;
   std::mt19937_64 random_;
   std::uint64_t lost_ = 0;

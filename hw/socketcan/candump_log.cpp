@@ -1,5 +1,6 @@
 #include "hw/socketcan/candump_log.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <istream>
@@ -31,6 +32,11 @@ std::optional<Number> whole_number(std::string_view digits, int base) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
   if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
   return value;
+}
+
+bool is_interface_name(std::string_view name) {
+  const bool printable = std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c <= '~'; });
+  return printable && !name.empty() && name.size() <= longest_interface;
 }
 
 std::optional<std::chrono::microseconds> decode_time(std::string_view text) {
@@ -99,7 +105,7 @@ CandumpLine decode_candump_line(std::string_view line) {
   if (!rest.starts_with(' ')) return refuse("no space after the time");
   rest.remove_prefix(1);
   const auto interface = take_until(rest, ' ');
-  if (!interface || interface->empty() || interface->size() > longest_interface) return refuse("no interface name");
+  if (!interface || !is_interface_name(*interface)) return refuse("no interface name");
   record.interface = *interface;
 
   const auto id = take_until(rest, '#');

@@ -19,6 +19,7 @@ class LoggedBus final : public CanBus {
   CanSendResult send(const CanFrame& frame) override;
   std::optional<StampedCanFrame> receive() override;
   bool up() const override { return bus_.up(); }
+  bool error_passive() const override { return bus_.error_passive(); }
 
  private:
   void record(const CanFrame& frame, Stamp stamp, CanDirection direction);

@@ -21,6 +21,12 @@ bool SentFrames::confirm(const CanFrame& frame) {
   return false;
 }
 
+bool SentFrames::holds(const CanFrame& like) const {
+  return std::any_of(frames_.begin(), frames_.begin() + count_, [&like](const StampedCanFrame& sent) {
+    return sent.frame.id == like.id && sent.frame.extended == like.extended;
+  });
+}
+
 std::uint64_t SentFrames::expire(Stamp limit) {
   std::uint64_t expired = 0;
   for (; count_ > 0 && frames_[0].stamp < limit; ++expired) erase(0);

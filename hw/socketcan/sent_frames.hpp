@@ -18,6 +18,8 @@ class SentFrames {
   bool add(const CanFrame& frame, Stamp now);
   /// Takes the oldest equal frame out; false if there is none.
   bool confirm(const CanFrame& frame);
+  /// True if a frame of this identifier is among them.
+  bool holds(const CanFrame& like) const;
   /// Takes out what was sent before `limit`, and says how many.
   std::uint64_t expire(Stamp limit);
   void clear() { count_ = 0; }

@@ -22,6 +22,22 @@ Duration wall_now() {
   return std::chrono::seconds{wall.tv_sec} + std::chrono::nanoseconds{wall.tv_nsec};
 }
 
+// A thread that is interrupted between the two readings would give every stamp the length of its interruption.
+ClockPair both_clocks() {
+  constexpr Duration close_enough = std::chrono::microseconds{50};
+  ClockPair best;
+  Duration least = Duration::max();
+  for (int attempt = 0; attempt < 3 && least > close_enough; ++attempt) {
+    const Stamp before = std::chrono::steady_clock::now();
+    const Duration wall = wall_now();
+    const Stamp after = std::chrono::steady_clock::now();
+    if (after - before >= least) continue;
+    least = after - before;
+    best = {wall, before + least / 2};
+  }
+  return best;
+}
+
 }  // namespace
 
 const char* to_string(SocketCanPhase phase) {
@@ -154,6 +170,11 @@ CanSendResult SocketCanBus::send(const CanFrame& frame) {
     return CanSendResult::bus_down;
   }
 
+  if (matches_any(config_.one_at_a_time, frame) && sent_.holds(frame)) {
+    ++state_.counters.would_block;
+    return CanSendResult::would_block;
+  }
+
   const int error = frames_->send(frame);
   if (error == EAGAIN || error == ENOBUFS) {
     ++state_.counters.would_block;
@@ -213,7 +234,7 @@ void SocketCanBus::count_drops(const CanMessage& message) {
 }
 
 Stamp SocketCanBus::stamp_of(const CanMessage& message) {
-  const ClockPair now{wall_now(), std::chrono::steady_clock::now()};
+  const ClockPair now = both_clocks();
   if (const auto stamp = to_steady(message.wall, now, oldest_frame)) return *stamp;
   ++state_.counters.stamps_replaced;
   return now.steady;

@@ -21,6 +21,10 @@ struct SocketCanConfig {
   /// Identifiers that only this program may send (RPDOs, SYNC, NMT, SDO requests). Needed beside `receive` so that the
   /// kernel confirms them. The same frames from anybody else are counted as foreign, and receive() gives them too.
   std::vector<CanFilter> own{};
+  /// Identifiers of which only one frame may be on its way: set-points and SYNC. While an earlier one has not been seen
+  /// on the bus the next is refused, so that a bus that takes nothing holds one old set-point and not ten. Needs
+  /// confirmations: part of `own` where `receive` is given.
+  std::vector<CanFilter> one_at_a_time{};
   Duration reopen_period = std::chrono::milliseconds(100);    ///< between two attempts to find the interface
   Duration confirm_deadline = std::chrono::milliseconds(50);  ///< a frame not seen on the bus by then is unconfirmed
 };
@@ -39,7 +43,7 @@ struct SocketCanCounters {
   std::uint64_t sent = 0;         ///< handed to the kernel
   std::uint64_t confirmed = 0;    ///< of these, seen on the bus
   std::uint64_t unconfirmed = 0;  ///< of these, not seen within the deadline or before an outage
-  std::uint64_t would_block = 0;  ///< dropped here: no room
+  std::uint64_t would_block = 0;  ///< dropped here: no room, or the one before is still on its way
   std::uint64_t refused = 0;      ///< dropped here: the bus was down
   std::uint64_t received = 0;
   std::uint64_t foreign = 0;       ///< our own identifiers sent by somebody else: a second master
@@ -71,6 +75,7 @@ class SocketCanBus final : public CanBus {
   CanSendResult send(const CanFrame& frame) override;
   std::optional<StampedCanFrame> receive() override;
   bool up() const override { return state_.phase == SocketCanPhase::running; }
+  bool error_passive() const override { return state_.controller == CanControllerState::passive; }
 
   const SocketCanState& state() const { return state_; }
   /// Why the bus is down and what to check, or nothing. Not latched.

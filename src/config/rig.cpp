@@ -63,6 +63,7 @@ std::optional<vision::CameraSetup> read_camera(const json& rig, const std::strin
                  .sideline = read_sideline(rig.at("sheet").at("sideline").get<std::string>())};
   setup.ice = {.paint_depth_m = rig.at("ice").at("paint_depth_m"),
                .refractive_index = rig.at("ice").at("refractive_index")};
+  setup.paint_depth_sigma_m = rig.at("ice").value("paint_depth_sigma_m", 0.0);
   return setup;
 }
 
@@ -76,17 +77,28 @@ const vision::CameraSetup& Rig::camera(std::string_view name) const {
   return *setup;
 }
 
+CameraSource Rig::source(std::string_view name) const {
+  const auto found = sources.find(name);
+  return found == sources.end() ? CameraSource{} : found->second;
+}
+
 Rig load_rig(const std::string& path) { return parse_rig(read_file(path), path); }
 
 Rig parse_rig(std::string_view text, const std::string& name) {
   Document document{.file = name, .lines = {}};
   const json rig = read_yaml(text, document);
   check(rig, "rig.schema.json", document);
+  std::map<std::string, CameraSource, std::less<>> sources;
+  for (const auto& [camera, section] : rig.at("cameras").items()) {
+    if (section.contains("source")) sources.emplace(camera, read_camera_source(camera, section, document));
+  }
   return {
       .file = name,
       .near_camera = read_camera(rig, "near", document),
       .low_camera = read_camera(rig, "low", document),
       .far_camera = read_camera(rig, "far", document),
+      .sources = std::move(sources),
+      .can_interface = rig.contains("can") ? rig.at("can").at("interface").get<std::string>() : std::string(),
       .stone = {.radius_m = rig.at("stone").at("handle_radius_m"), .height_m = rig.at("stone").at("handle_height_m")}};
 }
 

@@ -1,10 +1,12 @@
 // The rig file: one robot, its cameras, and what is known of the sheet. The same schema for simulation and steel.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "src/config/camera_source.hpp"
 #include "vision/camera_setup.hpp"
 
 namespace hogline::config {
@@ -20,10 +22,14 @@ struct Rig {
   std::optional<vision::CameraSetup> near_camera;
   std::optional<vision::CameraSetup> low_camera;
   std::optional<vision::CameraSetup> far_camera;
+  std::map<std::string, CameraSource, std::less<>> sources;  ///< by the camera's key; those that have one
+  std::string can_interface;                                 ///< empty if the rig names none
   StoneHandle stone;
 
   /// One of the cameras by its key: near, low or far. Throws ConfigError where the rig has none of that name.
   const vision::CameraSetup& camera(std::string_view name) const;
+  /// Where its pictures come from; a rig that does not say so means the simulated rink.
+  CameraSource source(std::string_view name) const;
 };
 
 /// Reads and checks a rig file. Throws ConfigError.

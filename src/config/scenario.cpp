@@ -91,7 +91,8 @@ GyroScenario read_gyro(const Section& s) {
           .bias_radps = s.radians("bias_deg_per_h") / hour_s,
           .scale_error = s.number("scale_error"),
           .angle_random_walk_rad_per_sqrt_s = s.radians("angle_random_walk_deg_per_sqrt_h") / std::sqrt(hour_s),
-          .latency_s = s.number("latency_s")};
+          .latency_s = s.number("latency_s"),
+          .latitude_rad = s.radians("latitude_deg")};
 }
 
 CameraScenario read_camera(const Section& s) {

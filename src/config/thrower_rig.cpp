@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/config/config_error.hpp"
+#include "src/config/drive_sections.hpp"
 #include "src/config/schema.hpp"
 #include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
@@ -104,53 +105,6 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   return c;
 }
 
-hw::WheelConfig read_wheel(const Section& s, const std::string& name) {
-  hw::WheelConfig w;
-  w.name = name;
-  w.node = static_cast<std::uint8_t>(s.integer("node"));
-  w.vendor_id = s.raw("vendor_id").get<std::uint32_t>();
-  w.product_code = s.raw("product_code").get<std::uint32_t>();
-  w.direction = s.integer("direction");
-  w.gear_ratio = s.number("gear_ratio");
-  w.position_counts_per_motor_rev = s.number("position_counts_per_motor_rev");
-  w.velocity_units_per_motor_rps = s.number("velocity_units_per_motor_rps");
-  w.acceleration_units_per_motor_rps2 = s.number("acceleration_units_per_motor_rps2");
-  w.max_speed_radps = s.number("max_speed_radps");
-  w.quick_stop_radps2 = s.number("quick_stop_radps2");
-  return w;
-}
-
-hw::DriveTiming read_timing(const Section& s) {
-  return {.control_period = s.duration("control_period_s"),
-          .command_age_limit = s.duration("command_age_limit_s"),
-          .feedback_timeout = s.duration("feedback_timeout_s"),
-          .rpdo_timeout = s.duration("rpdo_timeout_s"),
-          .heartbeat_period = s.duration("heartbeat_period_s"),
-          .heartbeat_timeout = s.duration("heartbeat_timeout_s"),
-          .sdo_timeout = s.duration("sdo_timeout_s"),
-          .boot_timeout = s.duration("boot_timeout_s"),
-          .state_timeout = s.duration("state_timeout_s"),
-          .quick_stop_timeout = s.duration("quick_stop_timeout_s"),
-          .stop_margin = s.duration("stop_margin_s")};
-}
-
-hw::TwoWheelDriveConfig read_drive(const Section& s, const Document& document) {
-  hw::TwoWheelDriveConfig d;
-  d.left = read_wheel(s.section("left"), "left wheel");
-  d.right = read_wheel(s.section("right"), "right wheel");
-  d.master_node = static_cast<std::uint8_t>(s.integer("master_node"));
-  d.timing = read_timing(s.section("timing"));
-  const Section p = s.section("plausibility");
-  d.plausibility = {.standstill_radps = p.number("standstill_radps"),
-                    .speed_error_radps = p.number("speed_error_radps"),
-                    .speed_error_time = p.duration("speed_error_time_s"),
-                    .position_mismatch_rad = p.number("position_mismatch_rad")};
-  if (const auto error = hw::config_error(d)) {
-    throw ConfigError(document.file, document.line_of("drive"), "drive", "", *error);
-  }
-  return d;
-}
-
 hw::ModbusSessionConfig read_modbus(const Section& s, const Document& document) {
   if (s.has("tcp") == s.has("rtu")) {
     throw ConfigError(document.file, document.line_of("modbus"), "modbus", "", "must hold either tcp or rtu");
@@ -192,6 +146,27 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
   return g;
 }
 
+hw::Dsp3000Config read_gyro(const Section& s) {
+  const Section rest = s.section("rest");
+  return {.variant = s.word("variant") == "text" ? hw::Dsp3000Variant::text : hw::Dsp3000Variant::binary,
+          .sign = s.number("sign"),
+          .latitude_rad = s.radians("latitude_deg"),
+          .latency = s.duration("latency_s"),
+          .silence_limit = s.duration("silence_limit_s"),
+          .mode_deadline = s.duration("mode_deadline_s"),
+          .reopen_delay = s.duration("reopen_delay_s"),
+          .max_rate_radps = s.radians("max_rate_degps"),
+          .max_slew_radps2 = s.radians("max_slew_degps2"),
+          .stuck_limit = s.duration("stuck_limit_s"),
+          .rest_window = rest.duration("window_s"),
+          .max_bias_radps = rest.radians("max_bias_degps"),
+          .max_bias_step_radps = rest.radians("max_bias_step_degps")};
+}
+
+hw::SerialPortConfig read_gyro_port(const Section& s) {
+  return {.device = s.word("device"), .baud = s.word("variant") == "text" ? 38400 : 115200};
+}
+
 void require_sections(const json& root, const Document& document) {
   for (const char* name :
        {"base", "limits", "release", "ages", "thrower", "drive", "modbus", "gripper", "arm", "gyro", "looks"}) {
@@ -214,6 +189,16 @@ void check_release(const servo::ReleaseConfig& r, const Document& document) {
   }
 }
 
+// While a look goes on nobody asks the camera: a limit shorter than that would take it for silence.
+void check_looks(const ThrowerRig& rig, const Document& document) {
+  for (const auto& [name, look] : {std::pair("near", rig.looks.near), std::pair("low", rig.looks.low)}) {
+    const std::string key = fmt::format("cameras.{}.source.silence_limit_s", name);
+    if (rig.rig.source(name).silence_limit > look) continue;
+    throw ConfigError(document.file, document.line_of(key), key, "",
+                      fmt::format("must be longer than looks.{}_s, {} s", name, seconds(look)));
+  }
+}
+
 }  // namespace
 
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
@@ -229,15 +214,14 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.thrower = read_thrower(s, rig.rig.camera("near").mount);
   check_release(rig.thrower.release, document);
   rig.drive = read_drive(s.section("drive"), document);
+  if (s.has("head")) rig.head = read_head(s.section("head"), rig.drive, document);
   rig.modbus = read_modbus(s.section("modbus"), document);
   rig.gripper = read_gripper(s.section("gripper"));
   rig.arm = read_axis(s.section("arm"));
-  const Section gyro = s.section("gyro");
-  rig.gyro = {.sign = gyro.number("sign"),
-              .latency = gyro.duration("latency_s"),
-              .silence_limit = gyro.duration("silence_limit_s"),
-              .max_rate_radps = gyro.radians("max_rate_degps")};
+  rig.gyro = read_gyro(s.section("gyro"));
+  rig.gyro_port = read_gyro_port(s.section("gyro"));
   rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
+  check_looks(rig, document);
   return rig;
 }
 

@@ -1,11 +1,14 @@
 // The part of the rig file that the thrower needs: its controller, its drives, its gripper and arm.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "hw/canopen/drive_config.hpp"
+#include "hw/canopen/head_config.hpp"
 #include "hw/dsp3000/dsp3000_gyro.hpp"
+#include "hw/dsp3000/serial_port.hpp"
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
@@ -19,10 +22,12 @@ struct ThrowerRig {
   Rig rig;
   servo::ThrowerConfig thrower;
   hw::TwoWheelDriveConfig drive;
+  std::optional<hw::TwoAxisHeadConfig> head;  ///< a thrower that only runs has none
   hw::ModbusSessionConfig modbus;
   hw::ModbusGripperConfig gripper;
   hw::AxisConfig arm;
   hw::Dsp3000Config gyro;
+  hw::SerialPortConfig gyro_port;
   LookTimes looks;
 };
 

@@ -7,9 +7,10 @@
 namespace hogline {
 
 const std::vector<std::string>& fault_names() {
-  static const std::vector<std::string> names{"drive-heartbeat", "drive-dies",  "camera-freeze", "camera-stops",
-                                              "camera-black",    "modbus-stop", "modbus-stall",  "gyro-silent",
-                                              "gyro-invalid",    "can-down"};
+  static const std::vector<std::string> names{"drive-heartbeat",  "drive-dies",       "camera-freeze",  "camera-stops",
+                                              "camera-black",     "camera-saturated", "camera-repeats", "camera-late",
+                                              "camera-time-back", "modbus-stop",      "modbus-stall",   "gyro-silent",
+                                              "gyro-invalid",     "can-down"};
   return names;
 }
 
@@ -44,6 +45,18 @@ void inject(FaultKind kind, SimulatedRobot& robot) {
       break;
     case FaultKind::camera_black:
       robot.low_camera().inject(RenderedCamera::Fault::black);
+      break;
+    case FaultKind::camera_saturated:
+      robot.low_camera().inject(RenderedCamera::Fault::saturated);
+      break;
+    case FaultKind::camera_repeats:
+      robot.low_camera().inject(RenderedCamera::Fault::repeated);
+      break;
+    case FaultKind::camera_late:
+      robot.low_camera().inject(RenderedCamera::Fault::late);
+      break;
+    case FaultKind::camera_time_back:
+      robot.low_camera().inject(RenderedCamera::Fault::time_back);
       break;
     case FaultKind::modbus_stop:
       rink.modbus().stop();

@@ -1,5 +1,6 @@
 #include "src/throwing/simulated_robot.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace hogline {
@@ -12,6 +13,8 @@ hw::sim::Scenario completed(hw::sim::Scenario scenario, const config::ThrowerRig
   scenario.robot.wheel_radius_m = rig.thrower.base.wheel_radius_m;
   scenario.robot.track_m = rig.thrower.base.track_m;
   scenario.stone.stone_x_m = rig.thrower.release.stone_x_m;
+  scenario.gyro.binary = rig.gyro.variant == hw::Dsp3000Variant::binary;
+  if (scenario.gyro.binary) scenario.gyro.line_rate_hz *= 10.0;
   return scenario;
 }
 
@@ -43,13 +46,28 @@ hw::sim::RinkConfig rink_config(const config::ThrowerRig& rig, const hw::sim::Sc
           .bus = {.bit_rate_hz = bit_rate_hz}};
 }
 
-hw::ModbusSessionConfig at_port(hw::ModbusSessionConfig config, int port) {
-  config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = port};
+// Devices that share a busy machine with this program may be held up longer than any on steel: the stepped clock stands
+// still meanwhile.
+constexpr Duration simulated_response_timeout = std::chrono::seconds{1};
+
+// The line as the rig file describes it, but to the rink's own port or terminal.
+hw::ModbusSessionConfig to_rink(hw::ModbusSessionConfig config, hw::sim::ModbusDevices& devices) {
+  if (auto* rtu = std::get_if<hw::ModbusRtu>(&config.line.line)) {
+    rtu->device = devices.serve_rtu();
+  } else {
+    config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = devices.port()};
+  }
+  config.line.response_timeout = std::max(config.line.response_timeout, simulated_response_timeout);
   return config;
 }
 
 hw::sim::CameraRig camera_rig(const vision::CameraSetup& setup) {
   return {.intrinsics = setup.intrinsics, .mount = setup.mount, .gamma = setup.gamma};
+}
+
+hw::CameraWatch watch_of(const config::Rig& rig, const std::string& camera) {
+  const config::CameraSource source = rig.source(camera);
+  return {.name = camera + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
 }
 
 }  // namespace
@@ -58,11 +76,14 @@ SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario 
     : scenario_(completed(std::move(scenario), rig)),
       rink_(rink_config(rig, scenario_), simulation_start),
       drive_(rink_.can(), rig.drive),
-      session_(at_port(rig.modbus, rink_.modbus_port())),
+      session_(to_rink(rig.modbus, rink_.modbus())),
       gripper_(session_, rig.gripper),
       arm_(session_, rig.arm),
-      gyro_([this] { return rink_.read_gyro(); }, rig.gyro),
+      gyro_line_(rink_),
+      gyro_(gyro_line_, rig.gyro),
       near_camera_(hw::sim::near_camera(rink_, scenario_, camera_rig(*rig.rig.near_camera), render_threads)),
-      low_camera_(hw::sim::low_camera(rink_, scenario_, camera_rig(*rig.rig.low_camera), render_threads)) {}
+      low_camera_(hw::sim::low_camera(rink_, scenario_, camera_rig(*rig.rig.low_camera), render_threads)),
+      near_checked_(near_camera_, watch_of(rig.rig, "near")),
+      low_checked_(low_camera_, watch_of(rig.rig, "low")) {}
 
 }  // namespace hogline

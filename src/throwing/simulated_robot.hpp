@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hw/canopen/two_wheel_drive.hpp"
+#include "hw/checks/checked_camera.hpp"
 #include "hw/dsp3000/dsp3000_gyro.hpp"
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
@@ -9,6 +10,7 @@
 #include "hw/sim/rink.hpp"
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
+#include "src/throwing/rink_gyro_line.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
@@ -20,8 +22,12 @@ class SimulatedRobot {
   SimulatedRobot(const SimulatedRobot&) = delete;
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 
-  ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_camera_, low_camera_}; }
+  ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_}; }
   hw::sim::Rink& rink() { return rink_; }
+  const hw::sim::Scenario& scenario() const { return scenario_; }
+  const hw::sim::Rink& rink() const { return rink_; }
+  RinkGyroLine& gyro_line() { return gyro_line_; }
+  hw::ModbusSession& session() { return session_; }
   hw::sim::RenderedCamera& near_camera() { return near_camera_; }
   hw::sim::RenderedCamera& low_camera() { return low_camera_; }
 
@@ -32,9 +38,12 @@ class SimulatedRobot {
   hw::ModbusSession session_;
   hw::ModbusGripper gripper_;
   hw::ModbusArm arm_;
+  RinkGyroLine gyro_line_;
   hw::Dsp3000Gyro gyro_;
   hw::sim::RenderedCamera near_camera_;
   hw::sim::RenderedCamera low_camera_;
+  hw::CheckedCamera near_checked_;
+  hw::CheckedCamera low_checked_;
 };
 
 }  // namespace hogline

@@ -5,18 +5,25 @@
 #include <optional>
 
 #include "src/throwing/fault.hpp"
+#include "src/throwing/oracle_seer.hpp"
 #include "src/throwing/simulated_robot.hpp"
 #include "src/throwing/throw_log.hpp"
 #include "src/throwing/throw_result.hpp"
 #include "src/throwing/thrower_loop.hpp"
+#include "src/throwing/vision_seer.hpp"
 
 namespace hogline {
+
+/// What stands behind the percepts: the pictures themselves, or the simulator's truth with vision's errors
+/// (OracleSeer).
+enum class Eyes { vision, oracle };
 
 struct ThrowRequest {
   config::ThrowerRig rig;
   hw::sim::Scenario scenario;
   servo::ShotOrder order;
   std::optional<Fault> fault;
+  Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
 };
 
@@ -30,6 +37,15 @@ struct ThrowOutcome {
 
 /// Called now and then with the simulated time and the state.
 using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
+
+/// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
+config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
+
+/// Sees on the robot's rink what vision would see on the practice rink.
+OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig);
+
+/// The devices boot and answer before anybody is asked to throw.
+void boot(SimulatedRobot& robot, Duration period);
 
 /// The same request gives the same outcome but for wall_time_s, which is left zero.
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress);

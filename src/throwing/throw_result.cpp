@@ -38,6 +38,7 @@ std::string result_line(const ThrowResult& result) {
   line["states"] = ordered_json::array();
   for (const StateTime& s : result.states) line["states"].push_back({{"name", s.name}, {"t_s", s.t_s}});
   line["abort"] = or_null(result.abort);
+  line["device_errors"] = result.device_errors;
   line["stop_hog_distance_m"] = result.stop_hog_distance_m;
   line["rest"] =
       result.rest ? ordered_json{{"x_m", result.rest->x_m}, {"y_m", result.rest->y_m}} : ordered_json(nullptr);

@@ -33,6 +33,7 @@ struct ThrowResult {
   std::optional<double> yaw_after_alignment_rad;  ///< true heading less the ordered one, when the alignment ended
   std::vector<StateTime> states;
   std::optional<std::string> abort;
+  std::vector<std::string> device_errors;   ///< what each device said of itself, in the order of its coming
   double stop_hog_distance_m = 0.0;         ///< where the robot came to rest
   std::optional<hw::sim::StoneTruth> rest;  ///< where the released stone came to rest, in e
   double sim_time_s = 0.0;

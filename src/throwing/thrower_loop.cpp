@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -10,12 +14,23 @@ namespace {
 // Devices that have not answered yet have the epoch as their stamp.
 bool heard(Stamp stamp) { return stamp != Stamp{}; }
 
+std::array<std::optional<hw::DeviceError>, 6> errors_of(const ThrowerDevices& devices) {
+  return {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
+          devices.gyro.state().error,  devices.near_camera.error(),   devices.low_camera.error()};
+}
+
 std::optional<std::string> first_error(const ThrowerDevices& devices) {
-  for (const auto& error : {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
-                            devices.gyro.state().error, devices.near_camera.error(), devices.low_camera.error()}) {
+  for (const auto& error : errors_of(devices)) {
     if (error) return fmt::format("{}: {}: {}", error->device, to_string(error->kind), error->what);
   }
   return std::nullopt;
+}
+
+// By the wheels alone: the gyro's bias is what it shows then.
+bool stands(const hw::DriveState& drive) {
+  constexpr double standing_radps = 0.002;
+  return heard(drive.stamp) && !drive.error && std::abs(drive.measured.left_radps) < standing_radps &&
+         std::abs(drive.measured.right_radps) < standing_radps;
 }
 
 std::optional<servo::WheelObservation> observe_wheels(const hw::DriveState& drive) {
@@ -61,11 +76,20 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.drive.step(now);
   devices_.gripper.step(now);
   devices_.arm.step(now);
+  devices_.gyro.at_rest(stands(devices_.drive.state()));
   devices_.gyro.step(now);
   eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
 
+  if (!thrower_.finished()) note_errors();  // afterwards nobody sends set-points, and the drives say so
   command_ = thrower_.step(observe(now), dt);
   apply(command_, now);
+}
+
+void ThrowerLoop::note_errors() {
+  for (const auto& error : errors_of(devices_)) {
+    const auto same = [&](const hw::DeviceError& e) { return e.device == error->device && e.since == error->since; };
+    if (error && std::ranges::none_of(device_errors_, same)) device_errors_.push_back(*error);
+  }
 }
 
 servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {

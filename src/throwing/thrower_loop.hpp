@@ -2,6 +2,8 @@
 // and is the same on the simulated rink and on steel.
 #pragma once
 
+#include <vector>
+
 #include "servo/thrower.hpp"
 #include "src/throwing/thrower_devices.hpp"
 #include "src/throwing/thrower_eyes.hpp"
@@ -18,8 +20,11 @@ class ThrowerLoop {
   const servo::Thrower& thrower() const { return thrower_; }
   const ThrowerEyes& eyes() const { return eyes_; }
   const servo::ThrowerCommand& command() const { return command_; }
+  /// Every device error since the start, in the order of their coming, also those that came after the first.
+  const std::vector<hw::DeviceError>& device_errors() const { return device_errors_; }
 
  private:
+  void note_errors();
   servo::ThrowerObservation observe(Stamp now) const;
   vision::LowViewPrediction low_view_hint() const;
   void apply(const servo::ThrowerCommand& command, Stamp now);
@@ -28,6 +33,7 @@ class ThrowerLoop {
   ThrowerEyes eyes_;
   servo::Thrower thrower_;
   servo::ThrowerCommand command_;
+  std::vector<hw::DeviceError> device_errors_;
   bool releasing_ = false;
 };
 

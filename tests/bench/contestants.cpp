@@ -61,7 +61,7 @@ CrossingLines crossing_lines(const Footage& footage) {
 
 std::vector<Contestant> near_contestants() {
   return {
-      {"chain", "seed's chain, plain OpenCV", false, [](const Footage& f) { return make_hough_chain(camera_of(f)); }},
+      {"chain", "paper's chain, plain OpenCV", false, [](const Footage& f) { return make_hough_chain(camera_of(f)); }},
       {"model", "ViSP vpMbGenericTracker", true,
        [](const Footage& f) { return make_visp_model(camera_of(f), painted_edges(f)); }},
       {"lines", "ViSP vpMeLine, vpMeEllipse, vpPose", true,

@@ -1,6 +1,6 @@
 // hogline_stones_compare [BOARDS]: stones found by hogline, by cv::HoughCircles on the rectified plane of the handles,
-// and by plain voting as Yoon et al. describe it (section III.C): recall, precision, error and processor time, on random
-// boards with the camera's true pose. The peers' thresholds are those at which they do best on these boards.
+// and by plain voting as Yoon et al. describe it (section III.C): recall, precision, error and processor time, on
+// random boards with the camera's true pose. The peers' thresholds are those at which they do best on these boards.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -118,7 +118,7 @@ struct Score {
   const char* name;
   int wanted = 0, found = 0, ghosts = 0;
   double squares = 0.0;
-  std::vector<double> ms;
+  std::vector<double> ms{};
 
   void add(const RandomBoard& board, Places places, double elapsed_ms) {
     ms.push_back(elapsed_ms);
@@ -146,9 +146,9 @@ struct Score {
 
 template <typename Method>
 void run(Score& score, const RandomBoard& board, const Method& method) {
-  const double begin = hogline::bench::processor_seconds();
+  const double begin = hogline::bench::processor_time_s();
   const Places places = method();
-  score.add(board, places, 1e3 * (hogline::bench::processor_seconds() - begin));
+  score.add(board, places, 1e3 * (hogline::bench::processor_time_s() - begin));
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ TEST_F(ToldBusOff, ErrorPassiveIsToldWithItsCountersAndTheBusStaysUp) {
   period(bus);
   EXPECT_TRUE(bus.up());
   EXPECT_EQ(bus.state().controller, CanControllerState::passive);
+  EXPECT_TRUE(bus.error_passive());
   EXPECT_EQ(bus.state().error_counters.transmit, 128);
   EXPECT_EQ(bus.state().error_counters.receive, 5);
   told("20000204#0040000000000000");

@@ -1,6 +1,7 @@
 // Frames that are lost, late, doubled, damaged or stuck, by the kernel's own traffic control.
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "tests/hil/can_node.hpp"
 #include "tests/hil/hil.hpp"
@@ -143,10 +144,46 @@ TEST_F(StuckBus, CommandsInTheKernelDoNotSurviveALinkThatGoesDown) {
 
 // The limit of what a program can do: it can not take back what the kernel has accepted. doc/socketcan.md tells what
 // bounds the harm. If this test fails because fewer come out, the limit has gone: say so there.
-TEST_F(StuckBus, WithoutAnOutageAFewOldCommandsComeOut) {
+TEST_F(StuckBus, WithoutAnOutageAFewOldFramesComeOut) {
   const auto numbers = heard_after([](SocketCanBus& bus) { EXPECT_TRUE(bus.up()); });
   EXPECT_GT(numbers.size(), 1U);
   EXPECT_LE(numbers.size(), 1U + 8U);
+}
+
+// What the adapter does about it for set-points: the next is refused until the one before was seen on the bus.
+TEST_F(StuckBus, OfEachSetPointOnlyOneOldFrameComesOut) {
+  stick();
+  SocketCanBus bus = running_bus({.one_at_a_time = {{0x201}, {0x202}, {0x080}}, .confirm_deadline = 60s});
+  CanNode node(name_);
+  std::vector<std::uint8_t> sent;           // numbers of the left wheel's set-points that the kernel took
+  for (std::uint8_t i = 1; i <= 20; ++i) {  // as a control loop does until it notices
+    wait_until([&] { return !period(bus).empty(); }, 5ms);
+    if (bus.send({.id = 0x201, .length = 1, .data = {i}}) == CanSendResult::sent) sent.push_back(i);
+    static_cast<void>(bus.send({.id = 0x202, .length = 1, .data = {i}}));
+    static_cast<void>(bus.send({.id = 0x080}));
+  }
+  EXPECT_LE(sent.size(), 3U) << "two periods' frames pass, and one is stuck";
+  const std::size_t passed = node.hear_all().size();
+
+  come_loose();
+  node.send(0x7FF);
+  ASSERT_TRUE(run_until(bus, [&] { return !bus.state().unconfirmed_since; }));
+  ASSERT_EQ(bus.send({.id = 0x201, .length = 1, .data = {99}}), CanSendResult::sent) << "and the way is free again";
+  std::map<std::uint32_t, int> old_frames;
+  ASSERT_TRUE(wait_until([&] {
+    bool last = false;
+    for (const can_frame& frame : node.hear_all()) {
+      last = frame.can_dlc == 1 && frame.data[0] == 99;
+      if (!last) ++old_frames[frame.can_id];
+    }
+    return last;
+  }));
+  std::printf("%zu frames had passed; then stuck: %d set-points, %d SYNC\n", passed,
+              old_frames[0x201] + old_frames[0x202], old_frames[0x080]);
+  EXPECT_LE(old_frames[0x201], 1);
+  EXPECT_LE(old_frames[0x202], 1);
+  EXPECT_GE(old_frames[0x201] + old_frames[0x202] + old_frames[0x080], 1) << "else nothing was stuck";
+  EXPECT_LE(old_frames[0x080], 1);
 }
 
 }  // namespace

@@ -189,7 +189,10 @@ class Node:
         return None
 
     def send(self, cob_id, data):
-        self.bus.send(can.Message(arbitration_id=cob_id, is_extended_id=False, data=data), timeout=5.0)
+        try:
+            self.bus.send(can.Message(arbitration_id=cob_id, is_extended_id=False, data=data), timeout=0)
+        except can.CanError:
+            pass  # no room, or the link is down: a node goes on
 
     def emergency(self, code):
         self.send(0x080 + self.number, struct.pack("<HB5x", code, 0x11))
@@ -369,7 +372,10 @@ def main():
     nodes = [Node(bus, number) for number in options.node]
     last = time.monotonic()
     while True:
-        message = bus.recv(timeout=0.002)
+        try:
+            message = bus.recv(timeout=0.002)
+        except can.CanError:  # the link went down: told once, the same socket goes on
+            message = None
         now = time.monotonic()
         if message is not None:
             for node in nodes:

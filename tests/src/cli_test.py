@@ -85,6 +85,16 @@ class WrongUse(unittest.TestCase):
     def test_an_unknown_fault(self):
         self.assertEqual(run("throw", "--fault", "earthquake@1").returncode, 2)
 
+    def test_a_doctor_without_a_rig(self):
+        self.assertEqual(run("doctor").returncode, 2)
+        self.refuses(run("doctor", "--rig", "nowhere.yaml"), "nowhere.yaml", "no such file")
+
+    def test_a_doctor_for_steel_without_a_can_interface(self):
+        rig = self.rig("can: {interface: can0}", "")
+        with open(rig, encoding="utf-8") as f:
+            text = f.read().replace("source: {simulated: {},", "source: {video: {path: run.mp4},", 1)
+        self.refuses(run("doctor", "--rig", self.file("rig.yaml", text.encode())), "can.interface", "missing")
+
     def test_no_subcommand(self):
         self.assertEqual(run().returncode, 2)
 
@@ -108,6 +118,13 @@ class Pose(unittest.TestCase):
         self.assertEqual([line["features"][0] for line in lines], ["acquired", "tracked", "tracked"])
         self.assertAlmostEqual(lines[0]["yaw_deg"], lines[2]["yaw_deg"], delta=0.005)
 
+    def test_output_that_can_not_be_written_is_a_failure(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([HOGLINE, "pose", "--rig", RIG, "--camera", "near", SCENE], stdout=full,
+                                    stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("output", result.stderr)
+
     def test_a_picture_of_another_size_is_not_estimated(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(RIG, encoding="utf-8") as f:
@@ -121,11 +138,76 @@ class Pose(unittest.TestCase):
         self.assertFalse(line["ok"])
         self.assertTrue(line["reason"])
 
+    def test_a_stamps_file_gives_a_sequence_its_pictures(self):
+        low = os.path.join(SOURCE, "tests/data/low")
+        with tempfile.TemporaryDirectory() as folder:
+            stamps = os.path.join(folder, "run.csv")
+            with open(stamps, "w", encoding="utf-8") as f:
+                f.write("name,id,time_s\n")
+                for k, name in enumerate(("low-13-006.jpg", "low-13-007.jpg")):
+                    f.write(f"{os.path.join(low, name)},{3 * k},{k}\n")
+            result = run("pose", "--rig", RIG, "--camera", "low", "--sequence", stamps)
+            again = run("pose", "--rig", RIG, "--camera", "low", "--sequence", low)
+            with open(stamps, "a", encoding="utf-8") as f:
+                f.write("late.jpg,1,9\n")
+            refused = run("pose", "--rig", RIG, "--camera", "low", "--sequence", stamps)
+        for r in (result, again):
+            self.assertEqual([os.path.basename(json.loads(line)["image"]) for line in r.stdout.splitlines()],
+                             ["low-13-006.jpg", "low-13-007.jpg"], r.stderr)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("run.csv:4", refused.stderr)
+
     def test_help_has_examples(self):
-        for command in ("pose", "throw", "demo"):
+        for command in ("pose", "throw", "demo", "doctor"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
+
+
+class Doctor(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        with open(RIG, encoding="utf-8") as f:
+            self.text = f.read()
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def doctor(self, text, *words):
+        path = os.path.join(self.folder.name, "rig.yaml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(text)
+        return run("doctor", "--rig", path, *words)
+
+    def test_all_is_well_on_the_simulated_rink(self):
+        small = self.text.replace("width_px: 1600", "width_px: 320").replace("height_px: 1200", "height_px: 240")
+        result = self.doctor(small)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("on the simulated rink", result.stdout)
+        self.assertIn("all well", result.stdout)
+        report = json.loads(self.doctor(small, "--simulated", "--json").stdout)
+        self.assertTrue(report["ok"] and report["simulated"])
+        self.assertEqual([d["device"] for d in report["devices"]],
+                         ["CAN bus", "left wheel", "right wheel", "jaws", "spin belt", "arm", "gyro", "near camera",
+                          "low camera"])
+
+    def test_steel_that_is_not_there_is_said_device_by_device(self):
+        text = self.text.replace("can: {interface: can0}", "can: {interface: nosuchcan0}")
+        text = text.replace("port: 502", "port: 1").replace(
+            "source: {simulated: {},", "source: {folder: {path: %s, rate_hz: 60}," % os.path.join(SOURCE, "tests/data/low"))
+        result = self.doctor(text, "--json")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        report = json.loads(result.stdout)
+        self.assertFalse(report["ok"] or report["simulated"])
+        verdicts = {d["device"]: d["verdict"] for d in report["devices"]}
+        self.assertEqual(verdicts["CAN bus"], "wrong")
+        self.assertEqual(verdicts["jaws"], "wrong")
+        self.assertEqual(verdicts["arm"], "wrong")
+        self.assertEqual(verdicts["near camera"], "note")
+        self.assertEqual(verdicts["low camera"], "ok", result.stdout)
+        for device in report["devices"]:
+            for remark in device["remarks"]:
+                self.assertTrue(remark["what"] and remark["advice"])
 
 
 if __name__ == "__main__":

@@ -163,19 +163,33 @@ std::string words(const RandomScene& scene) {
          std::to_string(scene.setup.gamma);
 }
 
-// One colour a pixel, the others interpolated.
-void through_mosaic(cv::Mat& bgr) {
-  cv::Mat mosaic(bgr.size(), CV_8UC1);
+// One colour a pixel, the others interpolated, in linear light as cameras do it.
+void through_mosaic(double gamma, cv::Mat& bgr) {
+  constexpr double full = 65535.0;
+  std::array<std::uint16_t, 256> linear{};
+  for (std::size_t v = 0; v < linear.size(); ++v) {
+    linear[v] = static_cast<std::uint16_t>(std::lround(full * std::pow(static_cast<double>(v) / 255.0, gamma)));
+  }
+  std::vector<std::uint8_t> byte(65536);
+  for (std::size_t v = 0; v < byte.size(); ++v) {
+    byte[v] = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(static_cast<double>(v) / full, 1.0 / gamma)));
+  }
+  cv::Mat mosaic(bgr.size(), CV_16UC1);
   for (int y = 0; y < bgr.rows; ++y) {
     const auto* in = bgr.ptr<cv::Vec3b>(y);
-    auto* out = mosaic.ptr<std::uint8_t>(y);
+    auto* out = mosaic.ptr<std::uint16_t>(y);
     for (int x = 0; x < bgr.cols; ++x) {
       const int channel = (y % 2) == (x % 2) ? (y % 2 == 0 ? 2 : 0) : 1;
-      out[x] = in[x][channel];
+      out[x] = linear[in[x][channel]];
     }
   }
-  // OpenCV names a pattern by the second row's second and third pixel: here RGGB from the first.
-  cv::cvtColor(mosaic, bgr, cv::COLOR_BayerBG2BGR);
+  cv::Mat mixed;
+  cv::cvtColor(mosaic, mixed, cv::COLOR_BayerBG2BGR);  // OpenCV's name for RGGB
+  for (int y = 0; y < bgr.rows; ++y) {
+    const auto* in = mixed.ptr<std::uint16_t>(y);
+    auto* out = bgr.ptr<std::uint8_t>(y);
+    for (int i = 0; i < 3 * bgr.cols; ++i) out[i] = byte[in[i]];
+  }
 }
 
 }  // namespace
@@ -212,7 +226,7 @@ cv::Mat render(const RandomScene& scene, const SceneMix& mix) {
   const hw::sim::SheetRenderer renderer(scene.setup.intrinsics, scene.setup.ice, scene.rink, scene.sensor, scene.seed);
   cv::Mat bgr;
   renderer.render(scene.exposure, scene.seed, bgr);
-  if (mix.colour_mosaic) through_mosaic(bgr);
+  if (mix.colour_mosaic) through_mosaic(scene.sensor.gamma, bgr);
   if (mix.jpeg_quality > 0) {
     std::vector<std::uint8_t> bytes;
     cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, mix.jpeg_quality});

@@ -8,7 +8,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "tests/support/run_sequence.hpp"
 #include "tests/support/turning_sequence.hpp"
+#include "vision/low_sequence.hpp"
 #include "vision/near_sequence.hpp"
 
 namespace {
@@ -88,6 +90,26 @@ TEST(Allocation, DoesNotHappenInTrackedFrames) {
     ASSERT_TRUE(near.diagnosis().tracked) << "frame " << k << ": " << near.diagnosis().lost;
     if (k >= warm_up) {
       EXPECT_EQ(during, 0) << "frame " << k;
+    }
+  }
+}
+
+TEST(Allocation, DoesNotHappenInTheTrackedFramesOfARun) {
+  const hogline::testing::RunSequence run{hogline::testing::RunMove{}};
+  LowSequence low(run.setup());
+  constexpr int warm_up = 15;
+  for (int k = 0; k < run.size(); ++k) {
+    const hogline::testing::RunFrame frame = run.frame(k);
+
+    const long before = asked_for;
+    const SheetPosePercept& percept = low.step(frame.bgr, frame.stamp);
+    const long during = asked_for - before;
+
+    ASSERT_TRUE(percept.ok) << percept.reason;
+    if (k == 0) continue;
+    ASSERT_TRUE(low.diagnosis().tracked) << "frame " << k << ": " << low.diagnosis().lost;
+    if (k >= warm_up) {
+      EXPECT_EQ(during, 0) << "frame " << k << (low.diagnosis().blind ? ", without the hog line" : "");
     }
   }
 }

@@ -144,6 +144,13 @@ cv::Mat turned(int code) {
   return m;
 }
 
+// As a camera mounted otherwise would see it, which no pose can explain.
+cv::Mat shifted(double right_px) {
+  cv::Mat m;
+  cv::warpAffine(load_scene("near/near-11-000").image, m, cv::Matx23d(1.0, 0.0, right_px, 0.0, 1.0, 0.0), {1600, 1200});
+  return m;
+}
+
 cv::Mat converted(int type) {
   cv::Mat m;
   if (CV_MAT_CN(type) == 1) {
@@ -174,6 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadCase{"turned left", [] { return turned(cv::ROTATE_90_COUNTERCLOCKWISE); }},
                       BadCase{"turned right", [] { return turned(cv::ROTATE_90_CLOCKWISE); }},
                       BadCase{"upside down", [] { return turned(cv::ROTATE_180); }},
+                      BadCase{"another mount's: shifted by 60 px", [] { return shifted(60.0); }},
                       BadCase{"empty", [] { return cv::Mat(); }},
                       BadCase{"wrong size", [] { return cv::Mat(600, 800, CV_8UC3, cv::Scalar::all(200)); }},
                       BadCase{"grey picture of a sheet", [] { return converted(CV_8UC1); }},

@@ -1,6 +1,7 @@
 #include "vision/detect/edge_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -22,19 +23,38 @@ cv::Mat darkest_half(const cv::Mat& image, int top) {
   return darkest;
 }
 
-// A robust standard deviation of the gradient where there is nothing but noise: most of the ice.
-double gradient_noise(const cv::Mat& dx) {
+// The median size of the gradient in one block.
+int middle_gradient(const cv::Mat& block) {
   std::array<int, 1024> histogram{};
   int count = 0;
-  for (int r = 0; r < dx.rows; r += 4) {
-    const std::int16_t* row = dx.ptr<std::int16_t>(r);
-    for (int c = 0; c < dx.cols; c += 3, ++count)
+  for (int r = 0; r < block.rows; r += 4) {
+    const std::int16_t* row = block.ptr<std::int16_t>(r);
+    for (int c = 0; c < block.cols; c += 3, ++count)
       ++histogram[static_cast<std::size_t>(std::min(std::abs(int{row[c]}), 1023))];
   }
   int seen = 0;
   std::size_t median = 0;
-  while (median < histogram.size() && (seen += histogram[median]) * 2 < count) ++median;
-  return static_cast<double>(median) / 0.6745;
+  while (median + 1 < histogram.size() && (seen += histogram[median]) * 2 < count) ++median;
+  return static_cast<int>(median);
+}
+
+// A robust standard deviation of the gradient where there is nothing but noise. Ice is rougher than what may stand
+// before it, so the rougher half of the picture's blocks tells.
+double gradient_noise(const cv::Mat& dx) {
+  constexpr int across = 8;
+  constexpr int down = 6;
+  std::vector<int> blocks;
+  for (int j = 0; j < down; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const cv::Range rows(j * dx.rows / down, (j + 1) * dx.rows / down);
+      const cv::Range columns(i * dx.cols / across, (i + 1) * dx.cols / across);
+      if (rows.size() > 4 && columns.size() > 4) blocks.push_back(middle_gradient(dx(rows, columns)));
+    }
+  }
+  if (blocks.empty()) return 0.0;
+  const auto rough = blocks.begin() + static_cast<std::ptrdiff_t>(blocks.size() * 3 / 4);
+  std::nth_element(blocks.begin(), rough, blocks.end());
+  return *rough / 0.6745;
 }
 
 struct Gradient {
@@ -94,13 +114,17 @@ bool complete(EdgePoint& point, const Eigen::Vector2d& gradient, const GroundVie
 
 std::vector<EdgePoint> find_edge_points(const cv::Mat& image, const GroundView& view, const EdgePointOptions& options) {
   const int top = view.first_row(options.range_m) & ~1;
+  if (image.rows - top < 16) return {};
+  return find_edge_points(darkest_half(image, top), top, view, options);
+}
+
+std::vector<EdgePoint> find_edge_points(const cv::Mat& half, int top, const GroundView& view,
+                                        const EdgePointOptions& options) {
   std::vector<EdgePoint> points;
-  if (image.rows - top < 16) return points;
-  const cv::Mat darkest = darkest_half(image, top);
   cv::Mat dx;
   cv::Mat dy;
-  cv::Sobel(darkest, dx, CV_16S, 1, 0);
-  cv::Sobel(darkest, dy, CV_16S, 0, 1);
+  cv::Sobel(half, dx, CV_16S, 1, 0);
+  cv::Sobel(half, dy, CV_16S, 0, 1);
   const int threshold = static_cast<int>(std::max(5.0 * gradient_noise(dx), 24.0));
 
   const Gradient gradient{dx, dy};

@@ -27,4 +27,8 @@ struct EdgePointOptions {
 /// picture's own noise.
 std::vector<EdgePoint> find_edge_points(const cv::Mat& image, const GroundView& view, const EdgePointOptions& options);
 
+/// The same in a picture of the ice's light at half the size (CV_8UC1) whose first row is the raw picture's row `top`.
+std::vector<EdgePoint> find_edge_points(const cv::Mat& half, int top, const GroundView& view,
+                                        const EdgePointOptions& options);
+
 }  // namespace hogline::vision

@@ -14,7 +14,7 @@ constexpr double missing_centre_m = 0.5;
 constexpr double hidden_hog_m = 1.5;      // times the share of it that was not seen
 constexpr double full_contrast = 0.5;     // paint that takes away half the light is surely paint
 constexpr double largest_gap_m = 0.4;     // a logo or a person may hide the rest
-constexpr double largest_x_m = 1.3;       // of a running thrower from the centre line
+constexpr double largest_x_m = 1.07;      // of a running thrower; farther out a sideline could pass for the centre line
 constexpr double inner_preference = 0.1;  // of two possible sidelines the inner: the outer one is the neighbour's
 
 /// A straight line on the ice by two of its points.

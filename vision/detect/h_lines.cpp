@@ -1,6 +1,7 @@
 #include "vision/detect/h_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/geometry/sheet.hpp"
@@ -24,6 +25,30 @@ struct FootPoint {
   double q;
   double log_bin;  ///< of a line straight across through it
 };
+
+// log(x) / log_step by table, for x from `least` to `most`; 0.1 off at most.
+class LogBins {
+ public:
+  static constexpr float least = 0.1F;
+  static constexpr float most = 4.0F;
+
+  LogBins() {
+    for (std::size_t i = 0; i < bins_.size(); ++i) {
+      const float x = least + (static_cast<float>(i) + 0.5F) / per_unit;
+      bins_[i] = std::log(x) / static_cast<float>(log_step);
+    }
+  }
+  float operator()(float x) const { return bins_[static_cast<std::size_t>((x - least) * per_unit)]; }
+
+ private:
+  static constexpr float per_unit = 4096.0F;
+  std::array<float, static_cast<std::size_t>((most - least) * per_unit) + 1> bins_{};
+};
+
+const LogBins& log_bins() {
+  static const LogBins table;
+  return table;
+}
 
 /// q = at_zero + slope * s.
 struct Line {
@@ -62,13 +87,14 @@ class Search {
   }
 
   void vote() {
+    const LogBins& log_of = log_bins();
     for (int y = 0; y < yaws_; ++y) {
       const auto cosine = static_cast<float>(std::cos(yaw_of(y)));
       const auto sine = static_cast<float>(std::sin(yaw_of(y)));
       for (std::size_t i = 0; i < ridges_.size(); ++i) {
         const float turned = cosine + static_cast<float>(points_[i].s) * sine;
-        if (!(turned > 0.1F)) continue;
-        const float bin = static_cast<float>(points_[i].log_bin) + std::log(turned) / static_cast<float>(log_step);
+        if (!(turned > LogBins::least && turned < LogBins::most)) continue;
+        const float bin = static_cast<float>(points_[i].log_bin) + log_of(turned);
         const int b = static_cast<int>(bin);
         if (bin < 0.0F || b + 1 >= logs_) continue;
         const float weight = static_cast<float>(std::min(ridges_[i].strength, 0.4));

@@ -1,6 +1,7 @@
 #include "vision/detect/h_ridges.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -12,8 +13,8 @@ namespace {
 constexpr float most_light = 1.5F;     // a lamp's reflection counts no more than this
 constexpr float least_light = 0.08F;   // sides darker than this are no ice
 constexpr float weakest = 0.05F;       // a ridge weaker than this is noise
-constexpr int read_every_px = 2;       // columns of a block: neighbours share their noise after demosaicing
 constexpr int least_side_rows = 3;     // of ice beside the paint
+constexpr double nearest_m = 0.15;     // ahead of the camera: below it nothing lies across
 constexpr double measurable_px = 3.0;  // paint thinner than this in the picture has no width to measure
 constexpr std::size_t index_of(int block, int rows, int row) {
   return static_cast<std::size_t>(block) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row);
@@ -26,14 +27,17 @@ int row_step(float thickness_px) { return thickness_px > 12.0F ? static_cast<int
 
 HogRidgeFinder::HogRidgeFinder(const GroundView& view, double range_m)
     : view_(view),
-      response_(view.setup().gamma),
       camera_(view.lens(), view.gMc(), view.setup().ice),
-      top_(std::max(0, view.first_row(range_m) - 8)),
+      top_(std::clamp(view.first_row(range_m) - 8, 0, view.setup().intrinsics.height_px - 2) & ~1),
       rows_(view.setup().intrinsics.height_px - top_),
       blocks_(view.setup().intrinsics.width_px / block_px),
       thickness_px_(index_of(blocks_, rows_, 0), std::numeric_limits<float>::quiet_NaN()),
       light_(thickness_px_.size(), 0.0F),
       sum_(index_of(blocks_, rows_ + 1, 0), 0.0F) {
+  for (int i = 0; i <= 255 * block_px; ++i) {
+    const double level = static_cast<double>(i) / (block_px * IceLight::white);
+    linear_.push_back(std::min(static_cast<float>(std::pow(level, view.setup().gamma)), most_light));
+  }
   const auto ahead = [&](double u, double v) {
     const auto n = view_.plane({u, v});
     const auto g = n ? view_.ground_of_plane(*n) : std::nullopt;
@@ -43,62 +47,40 @@ HogRidgeFinder::HogRidgeFinder(const GroundView& view, double range_m)
     for (int r = 0; r + 1 < rows_; ++r) {
       const double far_m = ahead(column_px(b), top_ + r);
       const double near_m = ahead(column_px(b), top_ + r + 1);
-      if (far_m > near_m && far_m < range_m) {
+      if (far_m > near_m && near_m > camera_.eMc().translation().y() + nearest_m && far_m < range_m) {
         thickness_px_[index_of(b, rows_, r)] = static_cast<float>(rules::hog_line_width_m / (far_m - near_m));
       }
     }
   }
 }
 
-std::vector<HogRidge> HogRidgeFinder::find(const cv::Mat& image) {
+std::vector<HogRidge> HogRidgeFinder::find(const IceLight& light) {
+  assert(light.top() == top_ && light.darkest().rows == rows_);
   std::vector<HogRidge> found;
   if (rows_ < 32) return found;
-  whiten(image);
-  darkest(image);
+  gather(light);
   for (int b = 0; b < blocks_; ++b) search(b, found);
   return found;
 }
 
-// Ice is white and most of what lies below the horizon is ice: each colour's upper quartile there is its white.
-void HogRidgeFinder::whiten(const cv::Mat& image) {
-  const int channels = image.channels();
-  std::array<std::array<int, 256>, 3> histogram{};
-  int count = 0;
-  for (int r = top_; r < image.rows; r += 8) {
-    const std::uint8_t* row = image.ptr<std::uint8_t>(r);
-    for (int c = 0; c < image.cols; c += 8, ++count) {
-      for (int k = 0; k < channels; ++k) ++histogram[static_cast<std::size_t>(k)][row[c * channels + k]];
-    }
-  }
-  for (std::size_t k = 0; k < static_cast<std::size_t>(channels); ++k) {
-    int seen = 0;
-    std::size_t value = 0;
-    while (value < 255 && (seen += histogram[k][value]) * 4 < count * 3) ++value;
-    const float white = std::max(response_.linear(static_cast<std::uint8_t>(value)), 1e-3F);
-    for (std::size_t i = 0; i < 256; ++i) {
-      white_[k][i] = std::min(response_.linear(static_cast<std::uint8_t>(i)) / white, most_light);
-    }
-  }
-}
-
-void HogRidgeFinder::darkest(const cv::Mat& image) {
-  const int channels = image.channels();
-  for (int r = 0; r < rows_; ++r) {
-    const std::uint8_t* p = image.ptr<std::uint8_t>(top_ + r);
+// Turned from rows to columns some rows at a time, which the processor's cache holds.
+void HogRidgeFinder::gather(const IceLight& light) {
+  constexpr int together = 16;
+  for (int begin = 0; begin < rows_; begin += together) {
+    const int end = std::min(begin + together, rows_);
     for (int b = 0; b < blocks_; ++b) {
-      float sum = 0.0F;
-      for (int i = 0; i < block_px; i += read_every_px, p += read_every_px * channels) {
-        float least = white_[0][p[0]];
-        if (channels == 3) least = std::min(least, std::min(white_[1][p[1]], white_[2][p[2]]));
-        sum += least;
+      float* out = &light_[index_of(b, rows_, 0)];
+      for (int r = begin; r < end; ++r) {
+        const std::uint8_t* p = light.darkest().ptr<std::uint8_t>(r) + b * block_px;
+        out[r] = linear_[static_cast<std::size_t>(p[0] + p[1] + p[2] + p[3])];
       }
-      light_[index_of(b, rows_, r)] = sum * read_every_px / block_px;
     }
   }
+  static_assert(block_px == 4);
   for (int b = 0; b < blocks_; ++b) {
-    const float* light = &light_[index_of(b, rows_, 0)];
+    const float* column = &light_[index_of(b, rows_, 0)];
     float* sum = &sum_[index_of(b, rows_ + 1, 0)];
-    for (int r = 0; r < rows_; ++r) sum[r + 1] = sum[r] + light[r];
+    for (int r = 0; r < rows_; ++r) sum[r + 1] = sum[r] + column[r];
   }
 }
 

@@ -4,12 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
 #include "vision/detect/ground_view.hpp"
+#include "vision/detect/ice_light.hpp"
 #include "vision/geometry/response_curve.hpp"
 #include "vision/geometry/sheet_camera.hpp"
 
@@ -29,8 +28,11 @@ class HogRidgeFinder {
   /// `view` must outlive it. Ice farther than `range_m` from the body is left out.
   HogRidgeFinder(const GroundView& view, double range_m);
 
-  /// `image` is CV_8UC3 or CV_8UC1 of the setup's size. Every block's local maxima, block by block.
-  std::vector<HogRidge> find(const cv::Mat& image);
+  /// The light of a picture of the setup's size, from row top() on. Every block's local maxima, block by block.
+  std::vector<HogRidge> find(const IceLight& light);
+
+  /// The first row that is searched; even.
+  int top() const { return top_; }
 
   int blocks() const { return blocks_; }
   /// Of the last picture, at a line's middle: how much light paint of a hog line's width takes away there, 0..1; about
@@ -46,8 +48,7 @@ class HogRidgeFinder {
   static constexpr int block_px = 4;
 
  private:
-  void whiten(const cv::Mat& image);
-  void darkest(const cv::Mat& image);
+  void gather(const IceLight& light);
   void search(int block, std::vector<HogRidge>& found) const;
 
   /// Light in the paint and beside it, if a hog line's middle were in this row.
@@ -68,15 +69,14 @@ class HogRidgeFinder {
   Edges edges(int block, int row, double level) const;
 
   const GroundView& view_;
-  ResponseCurve response_;
   SheetCamera camera_;
   int top_;
   int rows_;
   int blocks_;
   std::vector<float> thickness_px_;  ///< of hog-line paint, [block][row]; NaN where there is no ice in range
-  std::array<std::array<float, 256>, 3> white_{};
-  std::vector<float> light_;  ///< darkest colour over white, [block][row]
-  std::vector<float> sum_;    ///< its running sum, [block][row], one more than there are rows
+  std::vector<float> linear_;        ///< over white, of the sum of a block's pixels
+  std::vector<float> light_;         ///< darkest colour over white, [block][row]
+  std::vector<float> sum_;           ///< its running sum, [block][row], one more than there are rows
 };
 
 }  // namespace hogline::vision

@@ -1,7 +1,9 @@
 #include "vision/detect/house_segmentation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/geometry/sheet.hpp"
@@ -15,6 +17,7 @@ constexpr double deepest_m = 8.0;  // the house ends before
 constexpr int block_cells = 20;    // 1 m
 constexpr double ice_percentile = 0.7;
 constexpr int attempts = 3;
+constexpr std::size_t part_step = 5;
 
 double right_of(const ClassifiedLine& line, double ahead_m) {
   return (line.intercept_m - std::sin(line.slope_rad) * ahead_m) / std::cos(line.slope_rad);
@@ -93,6 +96,20 @@ cv::Mat relative_to_ice(const Samples& s) {
   return relative;
 }
 
+int nearest_centre(const cv::Mat& centres, const cv::Vec3f& colour) {
+  int nearest = 0;
+  float least = std::numeric_limits<float>::max();
+  for (int k = 0; k < centres.rows; ++k) {
+    const float* centre = centres.ptr<float>(k);
+    float square = 0.0F;
+    for (int i = 0; i < 3; ++i) square += (colour[i] - centre[i]) * (colour[i] - centre[i]);
+    if (square >= least) continue;
+    least = square;
+    nearest = k;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::optional<HouseSegmentation> segment_house(const cv::Mat& image, const ResponseCurve& response,
@@ -117,13 +134,19 @@ std::optional<HouseSegmentation> segment_house(const cv::Mat& image, const Respo
   }
   if (colours.size() < 2000) return std::nullopt;
 
-  cv::Mat labels;
+  // Three colours are found in a part of the cells; then every cell goes to the nearest.
+  std::vector<cv::Vec3f> part;
+  for (std::size_t i = 0; i < colours.size(); i += part_step) part.push_back(colours[i]);
+  cv::Mat part_labels;
   cv::Mat centres;
   cv::theRNG().state = 0x9e3779b97f4a7c15ULL;  // the same picture gives the same answer
-  cv::kmeans(cv::Mat(static_cast<int>(colours.size()), 3, CV_32F, colours.data()), 3, labels,
+  cv::kmeans(cv::Mat(static_cast<int>(part.size()), 3, CV_32F, part.data()), 3, part_labels,
              {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 20, 0.005}, attempts, cv::KMEANS_PP_CENTERS, centres);
+  std::vector<int> labels;
+  labels.reserve(colours.size());
+  for (const cv::Vec3f& colour : colours) labels.push_back(nearest_centre(centres, colour));
   std::array<int, 3> count{};
-  for (int i = 0; i < labels.rows; ++i) ++count[static_cast<std::size_t>(labels.at<int>(i))];
+  for (const int label : labels) ++count[static_cast<std::size_t>(label)];
   const auto lightness = [&](int k) { return cv::sum(centres.row(k))[0]; };
   int ice = 0;
   for (int k = 1; k < 3; ++k) ice = lightness(k) > lightness(ice) ? k : ice;
@@ -136,7 +159,7 @@ std::optional<HouseSegmentation> segment_house(const cv::Mat& image, const Respo
 
   HouseSegmentation segmentation{grid, cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))};
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (labels.at<int>(static_cast<int>(i)) == outer) segmentation.outer_ring.at<std::uint8_t>(cells[i]) = 255;
+    if (labels[i] == outer) segmentation.outer_ring.at<std::uint8_t>(cells[i]) = 255;
   }
   return segmentation;
 }

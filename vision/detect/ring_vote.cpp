@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "vision/geometry/sheet.hpp"
 
@@ -14,6 +15,10 @@ constexpr double cell_m = 0.06;
 constexpr std::array<double, 3> radii_m{rules::outer_ring_radius_m, rules::middle_ring_radius_m,
                                         rules::inner_ring_radius_m};
 constexpr int fewest_supporters = 60;
+constexpr int most_peaks = 8;
+constexpr int last_round = 5;
+constexpr std::size_t sectors = 24;
+constexpr int fewest_on_arc = 6;
 constexpr double near_circle_m = 0.10;
 constexpr double aligned_cosine = 0.97;
 
@@ -41,10 +46,26 @@ class Votes {
     cell[columns_ + 1] += fc * fr;
   }
 
-  // The best place, by votes summed over 5 x 5 cells: far edges are blurred by the mount's tilt.
-  Eigen::Vector2d peak() const {
-    float best = -1.0F;
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  // The best places, by votes summed over 5 x 5 cells: far edges are blurred by the mount's tilt. A long straight edge
+  // votes for strips of places; where they cross they may outdo the house, so more than one place is handed on.
+  std::vector<Eigen::Vector2d> peaks(int count) {
+    std::vector<Eigen::Vector2d> places;
+    sum_up();
+    for (int k = 0; k < count; ++k) {
+      const auto best = std::max_element(sums_.begin(), sums_.end());
+      if (*best <= 0.0F) break;
+      const int at = static_cast<int>(best - sums_.begin());
+      const int r = at / columns_;
+      const int c = at % columns_;
+      places.emplace_back(c * cell_m - half_width_m_, r * cell_m + nearest_m_);
+      clear_around(r, c);
+    }
+    return places;
+  }
+
+ private:
+  void sum_up() {
+    sums_.assign(cells_.size(), 0.0F);
     for (int r = 2; r < rows_ - 2; ++r) {
       for (int c = 2; c < columns_ - 2; ++c) {
         float sum = 0.0F;
@@ -52,27 +73,38 @@ class Votes {
           const float* row = cells_.data() + static_cast<std::ptrdiff_t>(r + dr) * columns_ + c;
           for (int dc = -2; dc <= 2; ++dc) sum += row[dc];
         }
-        if (sum > best) {
-          best = sum;
-          place = Eigen::Vector2d(c * cell_m - half_width_m_, r * cell_m + nearest_m_);
-        }
+        sums_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c)] = sum;
       }
     }
-    return place;
   }
 
- private:
+  void clear_around(int row, int column) {
+    constexpr int apart = static_cast<int>(0.24 / cell_m);
+    for (int r = std::max(row - apart, 0); r <= std::min(row + apart, rows_ - 1); ++r) {
+      for (int c = std::max(column - apart, 0); c <= std::min(column + apart, columns_ - 1); ++c) {
+        sums_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c)] = 0.0F;
+      }
+    }
+  }
+
   double half_width_m_;
   double nearest_m_;
   int columns_;
   int rows_;
   std::vector<float> cells_;
+  std::vector<float> sums_;
 };
+
+std::size_t sector_of(const Eigen::Vector2d& direction) {
+  const double turns = 0.5 + std::atan2(direction.y(), direction.x()) / (2.0 * std::numbers::pi);
+  return std::min(static_cast<std::size_t>(turns * sectors), sectors - 1);
+}
 
 // Gauss-Newton of the centre on the signed distances to the nearest circle, over aligned points only.
 RingVote refine(const std::vector<EdgePoint>& points, Eigen::Vector2d centre) {
   int supporters = 0;
-  for (int round = 0; round < 6; ++round) {
+  std::array<int, sectors * radii_m.size()> on_arc{};
+  for (int round = 0; round <= last_round; ++round) {
     Eigen::Matrix2d normal = 1e-6 * Eigen::Matrix2d::Identity();
     Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
     supporters = 0;
@@ -84,18 +116,23 @@ RingVote refine(const std::vector<EdgePoint>& points, Eigen::Vector2d centre) {
       const Eigen::Vector2d u = offset / distance;
       if (std::abs(u.dot(p.ground_normal)) < aligned_cosine) continue;
       double nearest = within;
-      for (const double radius : radii_m) {
-        if (std::abs(distance - radius) < std::abs(nearest)) nearest = distance - radius;
+      std::size_t ring = 0;
+      for (std::size_t k = 0; k < radii_m.size(); ++k) {
+        if (std::abs(distance - radii_m[k]) >= std::abs(nearest)) continue;
+        nearest = distance - radii_m[k];
+        ring = k;
       }
       if (std::abs(nearest) >= within) continue;
       normal += u * u.transpose();
       rhs += nearest * u;
       ++supporters;
+      if (round == last_round) ++on_arc[ring * sectors + sector_of(u)];
     }
     if (supporters < 10) break;
     centre += normal.inverse() * rhs;
   }
-  return {centre, supporters};
+  const auto arcs = std::ranges::count_if(on_arc, [](int n) { return n >= fewest_on_arc; });
+  return {centre, supporters, static_cast<int>(arcs)};
 }
 
 }  // namespace
@@ -108,9 +145,13 @@ std::optional<RingVote> vote_for_house(const std::vector<EdgePoint>& points, con
       votes.add(p.ground - radius * p.ground_normal);
     }
   }
-  const RingVote vote = refine(points, votes.peak());
-  if (vote.supporters < fewest_supporters || !vote.centre.allFinite()) return std::nullopt;
-  return vote;
+  std::optional<RingVote> best;
+  for (const Eigen::Vector2d& place : votes.peaks(most_peaks)) {
+    const RingVote vote = refine(points, place);
+    if (vote.supporters < fewest_supporters || !vote.centre.allFinite()) continue;
+    if (!best || vote.arcs > best->arcs) best = vote;
+  }
+  return best;
 }
 
 }  // namespace hogline::vision

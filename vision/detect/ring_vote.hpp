@@ -12,6 +12,7 @@ namespace hogline::vision {
 struct RingVote {
   Eigen::Vector2d centre;  ///< of the house, ground coordinates, m
   int supporters = 0;      ///< edge points that lie on one of the three circles about it
+  int arcs = 0;            ///< of 24 on each of three circles, those with supporters: a straight edge has few
 };
 
 /// Needs neither lines nor colours, and no whole ring: occluded and cut rings still vote. Nothing where no place

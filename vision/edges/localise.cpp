@@ -226,6 +226,21 @@ Fit solve(const std::array<float, Profile::max_samples>& light, const Profile& p
   return best;
 }
 
+// A sensor with one colour a pixel has red and blue at every fourth pixel only: interpolated, they beat with what is
+// thinner than two pixels (measured: 0.2 px on a line, three times green's). Green leads where it tells anything.
+std::array<float, 3> channel_weights(const std::array<float, 3>& colour) {
+  constexpr std::array<float, 3> trusted{0.5F, 1.0F, 0.5F};
+  std::array<float, 3> weight{};
+  float square = 0.0F;
+  for (std::size_t c = 0; c < 3; ++c) {
+    weight[c] = trusted[c] * colour[c];
+    square += weight[c] * weight[c];
+  }
+  const float size = std::sqrt(square);
+  for (float& w : weight) w /= size;
+  return weight;
+}
+
 LocalEdge failed(EdgeFault fault) {
   LocalEdge edge;
   edge.fault = fault;
@@ -244,11 +259,14 @@ LocalEdge locate(const Profile& profile, const EdgeExpectation& expected) {
   LocalEdge edge;
   for (std::size_t c = 0; c < 3; ++c) edge.colour[c] = change[c] / size;
 
+  const std::array<float, 3> weight = channel_weights(edge.colour);
+  const float joined = weight[0] * change[0] + weight[1] * change[1] + weight[2] * change[2];
+
   std::array<float, Profile::max_samples> light{};
   for (int i = window.begin; i < window.end; ++i) {
     const auto k = static_cast<std::size_t>(i);
     for (std::size_t c = 0; c < static_cast<std::size_t>(profile.channels); ++c) {
-      light[k] += edge.colour[c] * profile.light[c][k];
+      light[k] += weight[c] * profile.light[c][k];
     }
   }
   Vector start;
@@ -256,7 +274,7 @@ LocalEdge locate(const Profile& profile, const EdgeExpectation& expected) {
   const auto first = static_cast<std::size_t>(window.begin);
   const auto last = static_cast<std::size_t>(window.end - 1);
   const double base = static_cast<double>(bar ? 0.5F * (light[first] + light[last]) : light[first]);
-  start << base, 0.0, static_cast<double>(size), expected.offset_px, expected.blur_px;
+  start << base, 0.0, static_cast<double>(joined), expected.offset_px, expected.blur_px;
   const Fit fit = solve(light, profile, window, expected, start);
 
   const int freedom = std::max(1, window.size() - (bar ? 5 : 4));
@@ -275,6 +293,7 @@ LocalEdge locate(const Profile& profile, const EdgeExpectation& expected) {
     return failed(EdgeFault::no_contrast);
   }
   if (noise > 0.5 * edge.contrast) return failed(EdgeFault::not_like_that);
+  edge.contrast *= static_cast<double>(size / joined);  // along `colour`
   edge.fault = EdgeFault::none;
   return edge;
 }

@@ -36,7 +36,8 @@ struct LocalEdge {
   bool ok() const { return fault == EdgeFault::none; }
 };
 
-/// The three channels are joined along their own change of light, so that paint of any colour counts as much as it can.
+/// The three channels are joined along their own change of light, green before red and blue: paint of any colour
+/// counts, and a mosaic sensor's coarse colours move it little.
 LocalEdge locate(const Profile& profile, const EdgeExpectation& expected);
 
 }  // namespace hogline::vision

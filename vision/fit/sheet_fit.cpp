@@ -72,7 +72,7 @@ void SheetFit::Impl::clear_result() {
   result.sheet_width_m.reset();
   result.sites.clear();
   result.features.clear();
-  result.sites_tried = result.sites_used = 0;
+  result.sites_tried = result.sites_used = result.sites_hidden = 0;
 }
 
 void SheetFit::Impl::begin(const SheetFitStart& start) {
@@ -252,12 +252,12 @@ void SheetFit::Impl::find_sidelines(const PictureLight& light, const SheetFitSta
   }
 }
 
-// No sideline is planned, or most of its sites fit.
-bool SheetFit::Impl::sidelines_borne_out() const {
+// The sideline of that side is not planned, or most of its sites fit.
+bool SheetFit::Impl::sideline_borne_out(int side) const {
   double planned = 0.0;
   double agreed = 0.0;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (sites[i].feature < left_sideline_feature) continue;
+    if (sites[i].feature != left_sideline_feature + side) continue;
     planned += 1.0;
     agreed += step.weight[i];
   }
@@ -283,11 +283,11 @@ const SheetFitResult& SheetFit::Impl::fit(const cv::Mat& image, const SheetFitSt
     find_sidelines(light, start);
     refine(light, start, 18.0, 2.5, 1);
     if (!move_by(step.change)) return refuse("the fit ran away");
-    if (sidelines_borne_out()) break;
+    if (sideline_borne_out(0) && sideline_borne_out(1)) break;
   }
   // What still does not fit is somebody else's line: it must not move the camera.
-  if (!sidelines_borne_out()) {
-    for (Sideline& line : state.sidelines) line.moves_camera = false;
+  for (int side = 0; side < 2; ++side) {
+    if (!sideline_borne_out(side)) state.sidelines[static_cast<std::size_t>(side)].moves_camera = false;
   }
 
   refine(light, start, 12.0, 1.5, 2);

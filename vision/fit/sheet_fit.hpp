@@ -25,6 +25,7 @@ struct SheetFitStart {
   double height_sigma_m = 0.0;          ///< weak prior on the mount's height, 0 for none
   double most_sigma_m = 0.25;           ///< a place across or along the sheet less sure than this is none
   double travel_m = 0.0;                ///< of the camera along y during the exposure: motion blur to expect
+  bool may_be_hidden = false;           ///< paint in pieces of the picture that bear none out is hidden, not missing
   double paint_depth_sigma_m = 0.0;     ///< prior on the setup's paint depth; 0: taken as given, else estimated too
 };
 
@@ -41,6 +42,7 @@ struct FittedFeature {
   std::string name;  ///< outer_ring, middle_ring, inner_ring, button, centre_line, hog_line, left_sideline, ...
   int sites_tried = 0;
   int sites_used = 0;
+  int sites_hidden = 0;  ///< of those tried: where the picture bears out no paint at all round about
 };
 
 /// `ok == false` with a reason when too little was found or the fit is not determined.
@@ -59,6 +61,7 @@ struct SheetFitResult {
   double residual_px = 0.0;
   int sites_tried = 0;
   int sites_used = 0;
+  int sites_hidden = 0;  ///< of those tried: somebody or something stands before them
   std::vector<FittedFeature> features;
   std::vector<EdgeSite> sites;
 };

@@ -8,6 +8,12 @@
 
 namespace hogline::vision {
 
+/// A square piece of the picture: how much paint was looked for in it, and how much fits.
+struct SeenPiece {
+  int tried = 0;
+  int used = 0;
+};
+
 struct SheetFit::Impl {
   explicit Impl(const CameraSetup& given)
       : setup(given), lens(given.intrinsics), response(given.gamma), bRc(bMc(given.mount).linear()) {
@@ -15,6 +21,9 @@ struct SheetFit::Impl {
     found.reserve(2000);
     wide.reserve(1000);
     scratch.reserve(2000);
+    step.residual_px.reserve(2000);
+    step.weight.reserve(2000);
+    hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
   }
@@ -29,7 +38,7 @@ struct SheetFit::Impl {
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
   double borne_out() const;
-  bool sidelines_borne_out() const;
+  bool sideline_borne_out(int side) const;
   bool approach(const PictureLight& light, const SheetFitStart& start, int attempt);
   bool come_closer(const PictureLight& light, const SheetFitStart& start, double search_px,
                    const std::optional<Consensus>& consensus);
@@ -42,7 +51,9 @@ struct SheetFit::Impl {
   Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
+  void find_hidden();
   void report_sites();
+  std::string refusal(const SheetFitStart& start) const;
   const SheetFitResult& refuse(std::string reason);
 
   CameraSetup setup;
@@ -56,6 +67,8 @@ struct SheetFit::Impl {
   std::vector<Candidates> wide;
   std::vector<SiteMeasurement> found;
   std::vector<double> scratch;
+  std::vector<SeenPiece> pieces;
+  std::vector<bool> hidden;  // of the sites
   CloseStep step;
   Profile profile;
   SheetFitResult result;

@@ -17,11 +17,22 @@ constexpr double least_ground_step_m = 0.004;
 constexpr double most_ground_step_m = 0.4;
 constexpr double border_px = 3.0;
 
+// The cut that a close look takes through a site lies in the picture.
+bool measurable(const Lens& lens, const PlannedSite& site) {
+  constexpr double search_px = 1.5;
+  const double window_px = 3.0 * site.blur_px + 3.0;
+  const Eigen::Vector2d before = (0.5 * site.width_px + std::min(site.before_px, window_px) + search_px) * site.normal;
+  const Eigen::Vector2d after = (0.5 * site.width_px + std::min(site.after_px, window_px) + search_px) * site.normal;
+  return lens.in_picture(site.pixel - before) && lens.in_picture(site.pixel + after);
+}
+
 double least_room_px(double blur_px) { return 1.2 * blur_px + 1.0; }
 
 // A divider's foot is seen between the shade it throws on the ice and its mirror image in it: measured 0.3-0.5 px of
 // scatter that neighbouring sites share, where paint has 0.1.
 constexpr double foot_floor_px = 0.5;
+// Further away the shade is thinner than a pixel and pulls the foot inwards: measured 0.5 px.
+constexpr double most_foot_m_per_px = 0.012;
 
 // A curve on the sheet: its points, its direction, and the direction its edge faces.
 struct Curve {
@@ -197,6 +208,7 @@ struct Planner {
     site.sense = by_width > 0.0 ? -1 : 1;
     move_by_sideline(curve, *seen, edge_parameter, by_width, moves_camera, site);
     if (curve.on_surface) {
+      if (std::abs(per_px.x()) > most_foot_m_per_px) return;
       site.floor_px = foot_floor_px;
       site.before_px = std::min(site.before_px, 1.5 * site.blur_px + 1.0);
     }
@@ -286,6 +298,7 @@ bool reproject(const SiteCameras& cameras, const FitState& state, PlannedSite& s
     const int edge_parameter = f.begin_m < 0.0 ? parameter::left_edge : parameter::right_edge;
     move_by_sideline(curve, *seen, edge_parameter, band ? 0.5 : (far_edge ? 1.0 : 0.0), line.moves_camera, moved);
   }
+  if (!measurable(camera.lens(), moved)) return false;
   site = moved;
   return true;
 }

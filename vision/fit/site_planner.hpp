@@ -52,8 +52,8 @@ struct SiteCameras {
 };
 
 /// A planned site as another pose or state sees it: its pixel, normal, width and derivatives; what changes slowly
-/// (room, curvature, blur) stays. False when it is no longer in the picture or has become too thin; the site is then
-/// unchanged.
+/// (room, curvature, blur) stays. False when the cut that measures it leaves the picture, or when it has become too
+/// thin; the site is then unchanged.
 bool reproject(const SiteCameras& cameras, const FitState& state, PlannedSite& site);
 
 }  // namespace hogline::vision

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -84,6 +85,7 @@ class DriveBench {
   /// One millisecond of the world; the adapter takes part in every fifth, unless its loop is held up.
   void tick() {
     clock.advance(1ms);
+    if (on_tick) on_tick();
     if (++ticks_ % 5 == 0 && !loop_stalled) {
       if (set_point) drive.command(*set_point, now());
       drive.step(now());
@@ -91,7 +93,9 @@ class DriveBench {
     bus.deliver();
     turn(left, motor_radps[0], left_power);
     turn(right, motor_radps[1], right_power);
+    if (intruder) intruder->step(now(), 0.001, 0.0);
     bus.deliver();
+    travel_rad += 0.5 * (wheel_radps(0) + wheel_radps(1)) * 0.001;
     fastest_radps = std::max({fastest_radps, std::abs(wheel_radps(0)), std::abs(wheel_radps(1))});
   }
 
@@ -145,9 +149,14 @@ class DriveBench {
   std::array<double, 2> motor_radps{};
   sim::AxisPower left_power = sim::AxisPower::unpowered;
   sim::AxisPower right_power = sim::AxisPower::unpowered;
+  double travel_rad = 0.0;     ///< of the robot's middle, at the wheel
   double fastest_radps = 0.0;  ///< of either wheel since it was last zeroed
   std::string log;             ///< candump -L
   std::function<void(const StampedCanFrame&)> on_frame;
+  std::function<void()> on_tick;  ///< what an injected fault does each millisecond
+  std::unique_ptr<sim::Cia402DriveDevice> intruder;
+  std::optional<CanFrame> echo;  ///< for injections that repeat frames
+  bool echoing = false;
 
  private:
   /// An axis that follows its drive, coasts without power (0.5 s), and stops when braked (20 ms).

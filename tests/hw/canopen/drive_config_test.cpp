@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "hw/canopen/wheel_drive_setup.hpp"
-#include "hw/canopen/wheel_units.hpp"
+#include "hw/canopen/axis_units.hpp"
+#include "hw/canopen/drive_setup.hpp"
 #include "tests/hw/canopen/drive_bench.hpp"
 
 namespace hogline::hw::test {
@@ -50,22 +50,22 @@ TEST(DriveConfig, BadOnesNameKeyValueAndWhatIsAllowed) {
 }
 
 TEST(WheelSetup, SafetyComesFirst) {
-  const std::vector<SdoWrite> setup = wheel_drive_setup(drive_config().left, {}, 127);
+  const std::vector<SdoWrite> setup = wheel_setup(drive_config().left, {}, 127);
   const std::vector<std::uint16_t> first{0x1016, 0x6007, 0x605A, 0x605E, 0x6085};
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(setup[i].address.index, first[i]);
 }
 
-RC_GTEST_PROP(WheelUnits, SpeedRoundTripWithinHalfAUnit, ()) {
+RC_GTEST_PROP(AxisUnits, SpeedRoundTripWithinHalfAUnit, ()) {
   WheelConfig wheel = drive_config().left;
   wheel.direction = *rc::gen::element(-1, 1);
   const double speed = *rc::gen::inRange(-30000, 30001) / 1000.0;
-  const WheelUnits units(wheel);
+  const AxisUnits units(gearing(wheel));
   const double unit_radps = std::abs(units.radps(1));
   RC_ASSERT(std::abs(units.radps(units.velocity(speed)) - speed) <= 0.5 * unit_radps + 1e-12);
 }
 
-RC_GTEST_PROP(WheelUnits, TravelCrossesTheWrap, (std::int32_t from)) {
-  const WheelUnits units(drive_config().left);
+RC_GTEST_PROP(AxisUnits, TravelCrossesTheWrap, (std::int32_t from)) {
+  const AxisUnits units(gearing(drive_config().left));
   const auto counts = *rc::gen::inRange(-1000000, 1000001);
   const auto to = static_cast<std::int32_t>(static_cast<std::uint32_t>(from) + static_cast<std::uint32_t>(counts));
   RC_ASSERT(std::abs(units.travel_rad(from, to) - counts * 2.0 * std::numbers::pi / 8192.0 / gear_ratio) < 1e-9);

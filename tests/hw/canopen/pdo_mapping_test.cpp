@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "hw/canopen/drive_pdos.hpp"
 #include "hw/canopen/pdo_mapping.hpp"
-#include "hw/canopen/wheel_pdos.hpp"
 #include "tests/hw/can_text.hpp"
 
 namespace hogline::hw::test {
@@ -26,7 +26,7 @@ TEST(PdoMapping, AReceivePdoWithItsWatchdog) {
       "605#2B00140528000000",  // event timer 40 ms
       "605#2300140105020000",  // valid
   };
-  EXPECT_EQ(frames(pdo_mapping_sequence(wheel_command_pdo_config(5, 40))), expected);
+  EXPECT_EQ(frames(pdo_mapping_sequence(command_pdo_config(5, 40))), expected);
 }
 
 TEST(PdoMapping, ATransmitPdoForbidsRemoteRequests) {
@@ -39,7 +39,7 @@ TEST(PdoMapping, ATransmitPdoForbidsRemoteRequests) {
       "605#2F01180201000000",  // every SYNC
       "605#2301180185020040",  // valid
   };
-  EXPECT_EQ(frames(pdo_mapping_sequence(wheel_position_pdo_config(5))), expected);
+  EXPECT_EQ(frames(pdo_mapping_sequence(position_pdo_config(5))), expected);
 }
 
 TEST(PdoMapping, SwitchingOffIsOptional) {
@@ -49,8 +49,7 @@ TEST(PdoMapping, SwitchingOffIsOptional) {
 }
 
 TEST(WheelPdos, FitTheirFrames) {
-  for (const PdoConfig& pdo :
-       {wheel_command_pdo_config(5, 40), wheel_status_pdo_config(5), wheel_position_pdo_config(5)}) {
+  for (const PdoConfig& pdo : {command_pdo_config(5, 40), status_pdo_config(5), position_pdo_config(5)}) {
     int bits = 0;
     for (const MappedObject& object : pdo.objects) bits += object.bits;
     EXPECT_LE(bits, 64);
@@ -58,13 +57,13 @@ TEST(WheelPdos, FitTheirFrames) {
 }
 
 TEST(WheelPdos, Golden) {
-  EXPECT_EQ(text(encode(WheelCommandPdo{Cia402Command::enable_operation, -1000}, 5)), "205#0F0018FCFFFF");
-  const auto status = decode_wheel_status(frame("185#270218FCFFFF09"));
+  EXPECT_EQ(text(encode(DriveCommandPdo{0x000F, -1000}, 5)), "205#0F0018FCFFFF");
+  const auto status = decode_status(frame("185#270218FCFFFF09"));
   ASSERT_TRUE(status);
   EXPECT_EQ(decode_statusword(status->statusword), Cia402State::operation_enabled);
   EXPECT_EQ(status->velocity, -1000);
   EXPECT_EQ(status->mode, 9);
-  const auto position = decode_wheel_position(frame("285#FFFFFFFF1023"));
+  const auto position = decode_position(frame("285#FFFFFFFF1023"));
   ASSERT_TRUE(position);
   EXPECT_EQ(position->position, -1);
   EXPECT_EQ(position->error_code, 0x2310);
@@ -74,13 +73,13 @@ TEST(WheelPdos, AnyOtherLengthIsNothing) {
   CanFrame any = frame("185#0000000000000000");
   for (std::uint8_t length = 0; length <= 8; ++length) {
     any.length = length;
-    EXPECT_EQ(decode_wheel_status(any).has_value(), length == 7);
-    EXPECT_EQ(decode_wheel_position(any).has_value(), length == 6);
+    EXPECT_EQ(decode_status(any).has_value(), length == 7);
+    EXPECT_EQ(decode_position(any).has_value(), length == 6);
   }
 }
 
 RC_GTEST_PROP(WheelPdos, TheTargetSurvivesTheFrame, (std::int32_t target)) {
-  const CanFrame sent = encode(WheelCommandPdo{Cia402Command::enable_operation, target}, 5);
+  const CanFrame sent = encode(DriveCommandPdo{0x000F, target}, 5);
   std::uint32_t read = 0;
   for (std::size_t i = 4; i-- > 0;) read = (read << 8) | sent.data[2 + i];
   RC_ASSERT(static_cast<std::int32_t>(read) == target);

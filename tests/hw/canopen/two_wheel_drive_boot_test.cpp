@@ -3,8 +3,7 @@
 
 #include <stdexcept>
 
-#include "tests/hw/can_text.hpp"
-#include "tests/hw/canopen/drive_bench.hpp"
+#include "tests/hw/canopen/can_faults.hpp"
 
 namespace hogline::hw::test {
 namespace {
@@ -32,7 +31,7 @@ TEST(TwoWheelDriveBoot, WritesTheDrivesOwnWatchdogsAndReactions) {
   EXPECT_EQ(objects.get(0x1017), 50u);
   EXPECT_EQ(objects.get(0x1400, 5), 40u);
   EXPECT_EQ(objects.get(0x6007), 3u);
-  EXPECT_EQ(objects.get(0x605A), 6u);
+  EXPECT_EQ(objects.get(0x605A), 2u);
   EXPECT_EQ(objects.get(0x605E), 2u);
   EXPECT_EQ(objects.get(0x60C2, 1), 5u);
   EXPECT_EQ(objects.get_signed(0x60C2, 2), -3);
@@ -50,20 +49,30 @@ TEST(TwoWheelDriveBoot, ANodeThatComesLateIsWaitedFor) {
 struct BootFault {
   const char* description;
   std::function<void(DriveBench&)> inject;
+  Duration deadline;
   DeviceErrorKind kind;
   const char* what;
 };
 
-class TwoWheelDriveBootFault : public testing::TestWithParam<BootFault> {};
+void PrintTo(const BootFault& fault, std::ostream* out) { *out << fault.description; }
 
-TEST_P(TwoWheelDriveBootFault, EndsInATypedErrorAndNothingIsEnergised) {
+class CanBootFaultTest : public testing::TestWithParam<BootFault> {};
+
+TEST_P(CanBootFaultTest, EndsInATypedErrorAndNothingIsEnergised) {
   DriveBench bench;
   GetParam().inject(bench);
+  const Stamp injected = bench.now();
   ASSERT_TRUE(bench.run_until(DrivePhase::faulted, 12s));
+  const Duration detected = bench.now() - injected;
+  EXPECT_LE(detected, GetParam().deadline);
   const DeviceError error = bench.drive.state().error.value();
   EXPECT_EQ(error.kind, GetParam().kind) << error.what;
   EXPECT_EQ(error.device, "right wheel (node 2)");
   EXPECT_NE(error.what.find(GetParam().what), std::string::npos) << error.what;
+  RecordProperty("fault", GetParam().description);
+  RecordProperty("noticed_by", error.device + ": " + error.what);
+  RecordProperty("deadline_ms", static_cast<int>(GetParam().deadline / 1ms));
+  RecordProperty("detected_ms", static_cast<int>(detected / 1ms));
 
   bench.drive.enable();
   bench.set_point = WheelSpeeds{5.0, 5.0};
@@ -73,41 +82,72 @@ TEST_P(TwoWheelDriveBootFault, EndsInATypedErrorAndNothingIsEnergised) {
 }
 
 sim::ObjectDictionary& right_objects(DriveBench& bench) { return bench.right.communication().objects(); }
+sim::DeviceFaults& right_faults(DriveBench& bench) { return bench.right.communication().faults; }
 
-INSTANTIATE_TEST_SUITE_P(
-    Cases, TwoWheelDriveBootFault,
-    testing::Values(
-        BootFault{"the node has no power", [](DriveBench& b) { b.right.kill(sim::AxisPower::unpowered); },
-                  DeviceErrorKind::timeout, "never answered"},
-        BootFault{"the node does not come back from reset communication",
-                  [](DriveBench& b) {
-                    b.run(60ms);
-                    b.right.communication().faults.never_boots = true;
-                  },
-                  DeviceErrorKind::timeout, ""},
-        BootFault{"another vendor's device", [](DriveBench& b) { right_objects(b).set(0x1018, 1, 0xBAD); },
-                  DeviceErrorKind::refused, "wrong identity: 1018:01 is 00000BAD, expected 00C0FFEE"},
-        BootFault{"another product", [](DriveBench& b) { right_objects(b).set(0x1018, 2, 7); },
-                  DeviceErrorKind::refused, "1018:02"},
-        BootFault{"not a drive", [](DriveBench& b) { right_objects(b).set(0x1000, 0, 0x00030191); },
-                  DeviceErrorKind::refused, "1000:00 is 00000191"},
-        BootFault{"an object is refused",
-                  [](DriveBench& b) { right_objects(b).add(0x6085, 0, 4, sim::ObjectAccess::read_only, 1); },
-                  DeviceErrorKind::refused, "SDO 6085:00: aborted 06010002"},
-        BootFault{"the mode is never confirmed", [](DriveBench& b) { b.right.faults.mode_never_confirmed = true; },
-                  DeviceErrorKind::refused, "6061"},
-        BootFault{"SDO falls silent while configuring",
-                  [](DriveBench& b) {
-                    b.run_until([&b] { return b.drive.right().boot_stage() == WheelBoot::Stage::configure; }, 1s);
-                    b.right.communication().faults.sdo_silent = true;
-                  },
-                  DeviceErrorKind::timeout, "no answer"},
-        BootFault{"no heartbeat after the start",
-                  [](DriveBench& b) { b.right.communication().faults.heartbeat_stopped = true; },
-                  DeviceErrorKind::timeout, "heartbeat"},
-        BootFault{"no TPDO after the start", [](DriveBench& b) { b.right.communication().faults.tpdos_stopped = true; },
-                  DeviceErrorKind::timeout, "TPDO"}),
-    [](const auto& instance) { return "Case" + std::to_string(instance.index); });
+bool configures(DriveBench& bench) {
+  return bench.run_until([&bench] { return bench.drive.right().boot_stage() == NodeBoot::Stage::configure; }, 1s)
+      .has_value();
+}
+
+const std::vector<BootFault> boot_faults{
+    {"never boots: the node has no power", [](DriveBench& b) { b.right.kill(sim::AxisPower::unpowered); }, 5010ms,
+     DeviceErrorKind::timeout, "never answered"},
+    {"never boots: no boot-up after reset communication",
+     [](DriveBench& b) {
+       b.run(60ms);
+       right_faults(b).never_boots = true;
+     },
+     5100ms, DeviceErrorKind::timeout, ""},
+    {"wrong identity: another vendor", [](DriveBench& b) { right_objects(b).set(0x1018, 1, 0xBAD); }, 150ms,
+     DeviceErrorKind::refused, "wrong identity: 1018:01 is 00000BAD, expected 00C0FFEE"},
+    {"wrong identity: another product", [](DriveBench& b) { right_objects(b).set(0x1018, 2, 7); }, 150ms,
+     DeviceErrorKind::refused, "1018:02"},
+    {"wrong identity: not a drive", [](DriveBench& b) { right_objects(b).set(0x1000, 0, 0x00030191); }, 150ms,
+     DeviceErrorKind::refused, "1000:00 is 00000191"},
+    {"duplicate id: two nodes answer",
+     [](DriveBench& b) {
+       b.intruder = std::make_unique<sim::Cia402DriveDevice>(b.bus.make_endpoint(), device_config(2));
+     },
+     150ms, DeviceErrorKind::protocol, "breaks the protocol"},
+    {"duplicate id: a second node boots later",
+     [](DriveBench& b) {
+       ASSERT_TRUE(configures(b));
+       b.intruder = std::make_unique<sim::Cia402DriveDevice>(b.bus.make_endpoint(), device_config(2));
+     },
+     30ms, DeviceErrorKind::device_fault, "another node has its id"},
+    {"SDO abort", [](DriveBench& b) { right_objects(b).add(0x6085, 0, 4, sim::ObjectAccess::read_only, 1); }, 500ms,
+     DeviceErrorKind::refused, "SDO 6085:00: aborted 06010002"},
+    {"SDO timeout",
+     [](DriveBench& b) {
+       ASSERT_TRUE(configures(b));
+       right_faults(b).sdo_silent = true;
+     },
+     110ms, DeviceErrorKind::timeout, "no answer"},
+    {"SDO toggle bit stuck", [](DriveBench& b) { right_faults(b).sdo_toggle_stuck = true; }, 150ms,
+     DeviceErrorKind::protocol, "toggle"},
+    {"SDO wrong echo",
+     [](DriveBench& b) {
+       ASSERT_TRUE(configures(b));
+       right_faults(b).sdo_wrong_echo = true;
+     },
+     20ms, DeviceErrorKind::protocol, "breaks the protocol"},
+    {"SDO confirms the heartbeat watchdog and forgets it",
+     [](DriveBench& b) { right_faults(b).sdo_ignores = 0x101601; }, 800ms, DeviceErrorKind::refused,
+     "1016:01: confirmed 007F0096 but holds 00000000"},
+    {"SDO confirms the reaction to a lost connection and forgets it",
+     [](DriveBench& b) { right_faults(b).sdo_ignores = 0x600700; }, 800ms, DeviceErrorKind::refused, "6007:00"},
+    {"SDO confirms the RPDO watchdog and forgets it", [](DriveBench& b) { right_faults(b).sdo_ignores = 0x140005; },
+     800ms, DeviceErrorKind::refused, "1400:05: confirmed 00000028 but holds 00000000"},
+    {"mode never confirms", [](DriveBench& b) { b.right.faults.mode_never_confirmed = true; }, 5800ms,
+     DeviceErrorKind::refused, "6061"},
+    {"no heartbeat after the start", [](DriveBench& b) { right_faults(b).heartbeat_stopped = true; }, 5800ms,
+     DeviceErrorKind::timeout, "heartbeat"},
+    {"no TPDO after the start", [](DriveBench& b) { right_faults(b).tpdos_stopped = true; }, 5800ms,
+     DeviceErrorKind::timeout, "TPDO"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Can, CanBootFaultTest, testing::ValuesIn(boot_faults),
+                         [](const auto& instance) { return test_name(instance.param.description); });
 
 TEST(TwoWheelDriveBoot, AFaultFromBeforeIsResetByItsEdge) {
   DriveBench bench;

@@ -129,6 +129,72 @@ TEST(TwoWheelDriveBus, ALostOrDoubledFrameNowAndThenIsSurvived) {
   EXPECT_NEAR(bench.wheel_radps(0), 10.0, 0.05);
 }
 
+TEST(TwoWheelDriveBus, AReorderedFrameNowAndThenIsSurvived) {
+  DriveBench bench(drive_config(), {.bit_rate_hz = 1e6});
+  ASSERT_TRUE(bench.get_running(10.0));
+  bench.bus.set_reordering(0.05);
+  for (int i = 0; i < 5000; ++i) {
+    bench.tick();
+    bench.set_point = WheelSpeeds{10.0 + 5.0 * std::sin(i * 1e-3), 10.0 + 5.0 * std::sin(i * 1e-3)};
+  }
+  EXPECT_EQ(bench.drive.state().phase, DrivePhase::enabled) << bench.drive.state().error.value_or(DeviceError{}).what;
+  EXPECT_NEAR(bench.wheel_radps(0), 10.0 + 5.0 * std::sin(5.0), 0.2);
+}
+
+TEST(TwoWheelDriveBus, FeedbackThatComesLateAndAllAtOnceIsSurvived) {
+  DriveBench bench;
+  ASSERT_TRUE(bench.get_running(10.0));
+  // An adapter that hands its frames over every 20 ms: 4 at a time.
+  std::vector<CanFrame> held;
+  bench.bus.set_filter([&held, open = false, &bench](const CanFrame& frame) mutable {
+    open = (bench.now() - Stamp{}) % 20ms == 0ms;
+    const bool feedback = frame.id == 0x181 || frame.id == 0x281;
+    if (feedback && !open) held.push_back(frame);
+    return !feedback || open;
+  });
+  bench.on_tick = [&] {
+    if ((bench.now() - Stamp{}) % 20ms != 0ms) return;
+    for (const CanFrame& frame : held) bench.stray.send(frame);
+    held.clear();
+  };
+  bench.run(2s);
+  const DeviceError error = bench.drive.state().error.value_or(DeviceError{});
+  EXPECT_EQ(error.what.find("sends twice"), std::string::npos) << error.what;
+}
+
+TEST(TwoWheelDriveBus, ASyncThatIsLateByTwoPeriodsIsSurvived) {
+  DriveBench bench;
+  ASSERT_TRUE(bench.get_running(10.0));
+  bench.bus.set_filter([n = 0](const CanFrame& frame) mutable { return frame.id != 0x080 || ++n % 50 > 2; });
+  bench.run(3s);
+  EXPECT_EQ(bench.drive.state().phase, DrivePhase::enabled) << bench.drive.state().error.value_or(DeviceError{}).what;
+}
+
+// What a bus that takes nothing does with commands: they wait, and come out when it is free.
+TEST(TwoWheelDriveBus, OldCommandsOfAStuckBusDoNotEnableADriveThatStoppedItself) {
+  for (const Duration stuck : {60ms, 100ms, 149ms, 300ms, 2000ms}) {
+    DriveBench bench(drive_config(), {.bit_rate_hz = 1e6});
+    ASSERT_TRUE(bench.get_running(20.0));
+    bench.bus.set_stuck(true);
+    bench.run(stuck);
+    ASSERT_FALSE(bench.left.operation_enabled()) << "its RPDO watchdog";
+    bench.bus.set_stuck(false);
+    MotionCounter motion;
+    bench.on_frame = std::ref(motion);
+    double before = bench.wheel_radps(0);
+    for (int i = 0; i < 3000; ++i) {
+      bench.tick();
+      ASSERT_FALSE(bench.left.operation_enabled()) << stuck / 1ms << " ms stuck, " << i << " ms later";
+      ASSERT_LE(bench.wheel_radps(0), before + 0.01);
+      before = bench.wheel_radps(0);
+    }
+    EXPECT_TRUE(bench.standing());
+    EXPECT_EQ(bench.drive.state().phase, DrivePhase::faulted);
+    // Each wheel's commands until the fault, 15 ms after the first set-point that could not leave.
+    EXPECT_GT(motion.frames, 0) << "else nothing was tested";
+  }
+}
+
 TEST(TwoWheelDriveBus, CorruptedFramesEndInAStop) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DriveBench bench(drive_config(), {.seed = seed});
@@ -137,6 +203,10 @@ TEST(TwoWheelDriveBus, CorruptedFramesEndInAStop) {
     ASSERT_TRUE(bench.run_until(DrivePhase::faulted, 10s)) << "seed " << seed;
     bench.bus.set_faults(0.0, 0.0, 0.0);
     EXPECT_TRUE(bench.run_until([&bench] { return bench.standing(); }, 3s)) << "seed " << seed;
+    bench.fastest_radps = 0.0;
+    bench.run(1s);
+    EXPECT_LT(bench.fastest_radps, 0.2) << "seed " << seed;
+    EXPECT_EQ(bench.drive.state().phase, DrivePhase::faulted);
   }
 }
 

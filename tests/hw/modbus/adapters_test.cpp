@@ -3,63 +3,10 @@
 
 #include <limits>
 
-#include "hw/modbus/modbus_arm.hpp"
-#include "hw/modbus/modbus_gripper.hpp"
-#include "hw/sim/modbus_devices.hpp"
+#include "tests/hw/modbus/modbus_rig.hpp"
 
 namespace hogline::hw {
 namespace {
-
-using namespace std::chrono_literals;
-
-sim::GripperScenario gripper_scenario(bool holds) {
-  return {.opening_delay_s = 0.075,
-          .opening_jitter_s = 0.002,
-          .motion_delay_s = 0.02,
-          .holds_stone_at_start = holds,
-          .activation_time_s = 0.5,
-          .full_stroke_time_s = 0.6};
-}
-
-class Rig {
- public:
-  explicit Rig(bool holds = true, Duration reconnect_delay = 200ms)
-      : devices(gripper_scenario(holds), {.acceleration_radps2 = 4.0, .max_speed_radps = 3.0, .watchdog_s = 0.2},
-                {.travel_time_s = 1.5, .unfolded_at_start = false, .watchdog_s = 0.2}, 7, Stamp{}),
-        session({.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 200ms},
-                 .reconnect_delay = reconnect_delay}),
-        gripper(session, {.jaws = {.unit = 9,
-                                   .poll_period = 20ms,
-                                   .echo_deadline = 60ms,
-                                   .activation_deadline = 3s,
-                                   .silence_limit = 60ms,
-                                   .close_speed = 255,
-                                   .close_force = 128},
-                          .belt = {.unit = 10, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms},
-                          .max_spin_radps = 2.5}),
-        arm(session, {.unit = 11, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms}) {}
-
-  void run(Duration span) {
-    for (const Stamp end = now + span; now < end;) {
-      now += 5ms;
-      devices.step(now);
-      gripper.step(now);
-      arm.step(now);
-    }
-  }
-  bool stone_held() const { return devices.effects().stone_in_jaws; }
-
-  sim::ModbusDevices devices;
-  ModbusSession session;
-  ModbusGripper gripper;
-  ModbusArm arm;
-  Stamp now{};
-};
-
-DeviceErrorKind kind_of(const std::optional<DeviceError>& error) {
-  EXPECT_TRUE(error.has_value());
-  return error ? error->kind : DeviceErrorKind::implausible;
-}
 
 TEST(ModbusGripper, learns_that_a_stone_is_held_without_moving_anything) {
   Rig rig;
@@ -129,7 +76,7 @@ TEST(ModbusGripper, spins_the_stone_either_way_and_stops_it) {
 }
 
 TEST(ModbusGripper, activates_empty_jaws_and_grips_a_stone) {
-  Rig rig(false);
+  Rig rig({.holds = false});
   rig.run(50ms);
   EXPECT_FALSE(rig.gripper.state().activated);
   rig.devices.inject([](auto& jaws, auto&, auto&) { jaws.step(Stamp{50ms}); });
@@ -220,85 +167,6 @@ TEST(ModbusArm, a_restarted_device_is_an_error_and_does_not_move) {
   rig.run(1s);
   EXPECT_EQ(kind_of(rig.arm.state().error), DeviceErrorKind::protocol);
   EXPECT_EQ(rig.devices.effects().arm_unfolded, place);
-}
-
-// Faults of the line. In each the stone stays held, the error has its kind, and nothing moves before a new order.
-struct LineFault {
-  const char* what;
-  void (*inject)(sim::ModbusDevices&);
-  void (*heal)(sim::ModbusDevices&);
-  DeviceErrorKind kind;
-};
-
-void PrintTo(const LineFault& fault, std::ostream* out) { *out << fault.what; }
-
-class ModbusLine : public testing::TestWithParam<LineFault> {};
-
-TEST_P(ModbusLine, fault_keeps_the_stone_and_moves_nothing_until_rearmed) {
-  const auto& fault = GetParam();
-  Rig rig;
-  rig.gripper.spin(1.0);
-  rig.arm.unfold();
-  rig.run(500ms);
-  ASSERT_FALSE(rig.gripper.state().error);
-  ASSERT_FALSE(rig.arm.state().error);
-
-  fault.inject(rig.devices);
-  rig.run(100ms);
-  EXPECT_EQ(kind_of(rig.gripper.state().error), fault.kind) << rig.gripper.state().error->what;
-  EXPECT_EQ(kind_of(rig.arm.state().error), fault.kind) << rig.arm.state().error->what;
-  rig.gripper.release();  // an order into a dead line is dropped, not kept
-  rig.run(1s);
-  EXPECT_EQ(rig.devices.effects().belt_radps, 0.0) << "stopped by its watchdog";
-  const double place = rig.devices.effects().arm_unfolded;
-
-  fault.heal(rig.devices);
-  rig.run(1s);
-  EXPECT_TRUE(rig.gripper.state().error) << "latched";
-  EXPECT_TRUE(rig.stone_held());
-  EXPECT_EQ(rig.devices.effects().belt_radps, 0.0);
-  EXPECT_EQ(rig.devices.effects().arm_unfolded, place);
-
-  rig.gripper.rearm();
-  rig.arm.rearm();
-  rig.run(1s);
-  EXPECT_FALSE(rig.gripper.state().error) << rig.gripper.state().error->what;
-  EXPECT_FALSE(rig.arm.state().error);
-  EXPECT_EQ(rig.gripper.state().jaws, JawState::holding);
-  EXPECT_LE(seconds(rig.now - rig.gripper.state().stamp), 0.02) << "fresh again";
-  EXPECT_EQ(rig.devices.effects().belt_radps, 0.0) << "re-arming alone moves nothing";
-  EXPECT_EQ(rig.devices.effects().arm_unfolded, place);
-
-  rig.gripper.spin(1.0);
-  rig.arm.unfold();
-  rig.run(2s);
-  EXPECT_NEAR(rig.gripper.state().spin_radps, 1.0, 1e-3);
-  EXPECT_EQ(rig.arm.state().position, ArmPosition::unfolded);
-  rig.gripper.release();
-  rig.run(1s);
-  EXPECT_FALSE(rig.stone_held());
-}
-
-const LineFault line_faults[] = {
-    {"the server dies", [](auto& d) { d.stop(); }, [](auto& d) { d.restart(); }, DeviceErrorKind::disconnected},
-    {"it accepts but never answers", [](auto& d) { d.stall(); }, [](auto& d) { d.set_faults({}); },
-     DeviceErrorKind::timeout},
-    {"each answer is late", [](auto& d) { d.set_faults({.late = true}); }, [](auto& d) { d.set_faults({}); },
-     DeviceErrorKind::timeout},
-    {"every request gets an exception", [](auto& d) { d.set_faults({.exception = 6}); },
-     [](auto& d) { d.set_faults({}); }, DeviceErrorKind::refused},
-};
-INSTANTIATE_TEST_SUITE_P(faults, ModbusLine, testing::ValuesIn(line_faults));
-
-TEST(ModbusLine, one_lost_answer_is_forgiven) {
-  Rig rig(true, 20ms);
-  rig.run(100ms);
-  rig.devices.stall();
-  rig.run(5ms);
-  rig.devices.set_faults({});
-  rig.run(500ms);
-  EXPECT_FALSE(rig.gripper.state().error);
-  EXPECT_EQ(rig.session.connections(), 2U) << "the line was opened anew: no late answer can follow";
 }
 
 TEST(ModbusLine, an_axis_with_frozen_registers_is_found_by_the_watchdog_echo) {

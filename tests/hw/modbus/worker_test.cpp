@@ -22,8 +22,13 @@ class SharedClock final : public Clock {
   std::atomic<Duration::rep> ticks_{0};
 };
 
+// The clock runs much faster than the machine, so the deadlines in its time are long.
+constexpr Duration silence_limit = 100000s;
+
 class Rig {
  public:
+  explicit Rig(Duration order_age_limit = 100000s) : order_age_limit_(order_age_limit) {}
+
   // Devices and clock go on by one control period, as fast as the machine allows; the worker ticks meanwhile.
   template <typename Reached>
   void run_until(Reached&& reached) {
@@ -38,6 +43,7 @@ class Rig {
     run_until([&] { return clock.now() >= end; });
   }
 
+  Duration order_age_limit_;
   SharedClock clock;
   sim::ModbusDevices devices{{.opening_delay_s = 0.075,
                               .opening_jitter_s = 0.002,
@@ -49,7 +55,6 @@ class Rig {
                              {.travel_time_s = 1.5, .unfolded_at_start = false, .watchdog_s = 1e6},
                              7,
                              Stamp{}};
-  // The clock runs much faster than the machine, so the deadlines in its time are long.
   ModbusWorker worker{
       {.session = {.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 500ms},
                    .reconnect_delay = 1ms},
@@ -57,13 +62,14 @@ class Rig {
                             .poll_period = 1ms,
                             .echo_deadline = 3600s,
                             .activation_deadline = 3600s,
-                            .silence_limit = 100s,
+                            .silence_limit = silence_limit,
                             .close_speed = 255,
                             .close_force = 128},
-                   .belt = {.unit = 10, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = 100s},
+                   .belt = {.unit = 10, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = silence_limit},
                    .max_spin_radps = 2.5},
-       .arm = {.unit = 11, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = 100s},
-       .tick = 100us},
+       .arm = {.unit = 11, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = silence_limit},
+       .tick = 100us,
+       .order_age_limit = order_age_limit_},
       clock};
 };
 
@@ -88,6 +94,7 @@ TEST(ModbusWorker, a_dead_line_never_holds_up_the_caller_and_moves_nothing_when_
   auto& gripper = rig.worker.gripper();
   rig.run_until([&] { return gripper.state().jaws == JawState::holding; });
   rig.devices.stop();
+  rig.clock.advance(silence_limit + 1s);
   rig.run_until([&] { return gripper.state().error.has_value(); });
   for (int i = 0; i < 100000; ++i) gripper.release();  // each returns at once, and none is kept
   rig.run(1s);
@@ -98,12 +105,54 @@ TEST(ModbusWorker, a_dead_line_never_holds_up_the_caller_and_moves_nothing_when_
   EXPECT_TRUE(rig.devices.effects().stone_in_jaws);
   EXPECT_TRUE(gripper.state().error) << "latched";
 
-  rig.worker.rearm();
+  gripper.rearm();
   rig.run_until([&] { return !gripper.state().error; });
   rig.run_until([&] { return gripper.state().jaws == JawState::holding && exchanged() > restarted; });
   EXPECT_TRUE(rig.devices.effects().stone_in_jaws) << "re-arming alone moves nothing";
   gripper.release();
   rig.run_until([&] { return gripper.state().jaws == JawState::open; });
+}
+
+TEST(ModbusWorker, a_release_that_waited_too_long_for_the_line_is_dropped_and_reported) {
+  Rig rig(40s);
+  auto& gripper = rig.worker.gripper();
+  rig.run_until([&] { return gripper.state().jaws == JawState::holding; });
+  rig.devices.stall();
+  // Until the worker is in an exchange, which takes half a second of real time to fail.
+  rig.run_until([&] { return rig.clock.now() - gripper.state().stamp > 20s; });
+  gripper.release();
+  rig.clock.advance(30s);
+  gripper.release();  // repeating it makes it no younger
+  rig.clock.advance(11s);
+  rig.devices.set_faults({});
+  rig.run_until([&] { return gripper.state().error.has_value(); });
+  EXPECT_NE(gripper.state().error->what.find("waited too long"), std::string::npos) << gripper.state().error->what;
+  const Stamp dropped = rig.clock.now();
+  rig.run_until([&] { return gripper.state().stamp > dropped; });
+  EXPECT_TRUE(rig.devices.effects().stone_in_jaws);
+}
+
+TEST(ModbusWorker, each_port_is_rearmed_by_itself) {
+  Rig rig;
+  auto& gripper = rig.worker.gripper();
+  auto& arm = rig.worker.arm();
+  rig.run_until([&] { return gripper.state().jaws == JawState::holding; });
+  rig.run_until([&] { return arm.state().position == ArmPosition::folded; });
+  rig.devices.inject([](auto& jaws, auto&, auto& axis) {
+    jaws.set_fault(0x0E);
+    axis.set_fault(2);
+  });
+  rig.run_until([&] { return gripper.state().error && arm.state().error; });
+  rig.devices.inject([](auto& jaws, auto&, auto& axis) {
+    jaws.set_fault(0);
+    axis.power_cycle();
+  });
+  arm.rearm();
+  rig.run_until([&] { return !arm.state().error; });
+  EXPECT_TRUE(gripper.state().error) << "it was not asked";
+  gripper.rearm();
+  rig.run_until([&] { return !gripper.state().error; });
+  EXPECT_TRUE(rig.devices.effects().stone_in_jaws);
 }
 
 }  // namespace

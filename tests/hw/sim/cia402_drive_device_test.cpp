@@ -90,6 +90,54 @@ TEST_F(DriveDeviceTest, WalksThroughTheStatesOneCommandEach) {
   EXPECT_EQ(state(), 0x40);
 }
 
+/// Where each command leads from each state (statusword & 6F), by the standard's transitions.
+struct CommandRow {
+  std::uint16_t word;
+  const char* name;
+  std::uint16_t from_disabled, from_ready, from_switched_on, from_enabled, from_quick_stop;
+};
+
+TEST_F(DriveDeviceTest, EveryStateTakesEveryCommandAsTheStandardSays) {
+  const CommandRow rows[] = {
+      {0x06, "shutdown", 0x21 /*2*/, 0x21, 0x21 /*6*/, 0x21 /*8*/, 0x07},
+      {0x07, "switch on", 0x40, 0x23 /*3*/, 0x23, 0x23 /*5*/, 0x07},
+      {0x0F, "enable operation", 0x40, 0x27 /*3 and 4*/, 0x27 /*4*/, 0x27, 0x27 /*16, as 605A is 6*/},
+      {0x02, "quick stop", 0x40, 0x40 /*7*/, 0x40 /*10*/, 0x07 /*11*/, 0x07},
+      {0x00, "disable voltage", 0x40, 0x40 /*7*/, 0x40 /*10*/, 0x40 /*9*/, 0x40 /*12*/},
+      {0x80, "fault reset", 0x40, 0x40 /*7*/, 0x40 /*10*/, 0x40 /*9*/, 0x40 /*12*/},
+  };
+  const std::vector<std::vector<std::uint16_t>> ways{
+      {}, {0x06}, {0x06, 0x07}, {0x06, 0x07, 0x0F}, {0x06, 0x07, 0x0F, 0x02}};
+  run(50ms);
+  write(0x6060, 9, 1);
+  ASSERT_EQ(write(0x605A, 6, 2), 0u);
+  for (const CommandRow& row : rows) {
+    const std::uint16_t expected[] = {row.from_disabled, row.from_ready, row.from_switched_on, row.from_enabled,
+                                      row.from_quick_stop};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      control(0x00);
+      for (const std::uint16_t word : ways[i]) control(word, 30ms);
+      control(row.word, 30ms);
+      EXPECT_EQ(state(), expected[i]) << row.name << " from state " << i;
+    }
+  }
+}
+
+TEST_F(DriveDeviceTest, AQuickStopThatEndsWithoutPowerIsNotResumedByAnOldControlword) {
+  enable();
+  ASSERT_EQ(write(0x605A, 2, 2), 0u);
+  ASSERT_EQ(write(0x6085, 40000, 4), 0u);
+  write(0x60FF, 20000, 4);
+  run(300ms);
+  control(0x02, 20ms);
+  ASSERT_EQ(state(), 0x07);
+  for (int i = 0; i < 1000; ++i) {
+    control(0x0F, 1ms);  // transition 16 exists for 605A = 5..8 only
+    ASSERT_NE(state(), 0x27);
+  }
+  EXPECT_EQ(state(), 0x40);
+}
+
 TEST_F(DriveDeviceTest, FollowsATargetWithDeadTimeAndBandwidth) {
   enable();
   write(0x60FF, 10000, 4);

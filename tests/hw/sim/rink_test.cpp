@@ -54,6 +54,35 @@ Scenario scenario_of(std::uint64_t seed) {
   return scenario;
 }
 
+class GyroLine final : public ByteLine {
+ public:
+  explicit GyroLine(Rink& rink) : rink_(rink) {}
+  std::optional<std::string> open() override { return std::nullopt; }
+  void close() override {}
+  std::optional<std::string> read() override { return rink_.read_gyro(); }
+  bool write(std::string_view bytes) override {
+    rink_.gyro().write(bytes);
+    return true;
+  }
+
+ private:
+  Rink& rink_;
+};
+
+Dsp3000Config gyro_config() {
+  return {.sign = 1.0,
+          .latency = 3ms,
+          .silence_limit = 30ms,
+          .mode_deadline = 500ms,
+          .reopen_delay = 200ms,
+          .max_rate_radps = 6.5,
+          .max_slew_radps2 = 100.0,
+          .stuck_limit = 1h,  // this rink's gyro has no noise
+          .rest_window = 500ms,
+          .max_bias_radps = 0.1,
+          .max_bias_step_radps = 0.1};
+}
+
 // The program's side: real adapters, and a script instead of a controller.
 class Program {
  public:
@@ -73,8 +102,8 @@ class Program {
                           .belt = {.unit = 10, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms},
                           .max_spin_radps = 3.0}),
         arm(session, {.unit = 11, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms}),
-        gyro([this] { return rink.read_gyro(); },
-             {.sign = 1.0, .latency = 3ms, .silence_limit = 30ms, .max_rate_radps = 6.5}) {}
+        gyro_line(rink),
+        gyro(gyro_line, gyro_config()) {}
 
   void step() {
     rink.step(period);
@@ -120,6 +149,7 @@ class Program {
   ModbusSession session;
   ModbusGripper gripper;
   ModbusArm arm;
+  GyroLine gyro_line;
   Dsp3000Gyro gyro;
   double axis_radps = 0.0;
 };

@@ -91,6 +91,8 @@ TEST(CandumpLine, WhatIsNoLineIsRefusedWithAReason) {
                                   time + "vcan0",
                                   time + " 123#",
                                   time + "sixteen_letters_ 123#",
+                                  time + std::string("vc\x01\0an0", 7) + " 123#",  // found by fuzzing
+                                  time + "vc\tan0 123#",
                                   time + "vcan0 1234#",
                                   time + "vcan0 800#",
                                   time + "vcan0 40000001#",

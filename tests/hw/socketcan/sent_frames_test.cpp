@@ -18,6 +18,16 @@ TEST(SentFrames, AreConfirmedInAnyOrder) {
   EXPECT_FALSE(sent.oldest());
 }
 
+TEST(SentFrames, KnowWhichIdentifiersAreOnTheirWayWhateverTheirContents) {
+  SentFrames sent;
+  sent.add({.id = 0x201, .length = 1, .data = {1}}, Stamp{} + 1ms);
+  EXPECT_TRUE(sent.holds({.id = 0x201, .length = 1, .data = {2}}));
+  EXPECT_FALSE(sent.holds({.id = 0x202}));
+  EXPECT_FALSE(sent.holds({.id = 0x201, .extended = true}));
+  EXPECT_TRUE(sent.confirm({.id = 0x201, .length = 1, .data = {1}}));
+  EXPECT_FALSE(sent.holds({.id = 0x201}));
+}
+
 TEST(SentFrames, EqualFramesAreConfirmedOnceEach) {
   SentFrames sent;
   sent.add({.id = 0x80}, Stamp{} + 1ms);

@@ -49,6 +49,12 @@ TEST(Rig, is_read_in_SI_units_and_radians) {
   EXPECT_DOUBLE_EQ(rig.stone.radius_m, 0.095);
 }
 
+TEST(Rig, takes_the_paint_depth_as_given_unless_it_says_how_sure_it_is) {
+  EXPECT_EQ(parse_rig(good, "rig.yaml").camera("near").paint_depth_sigma_m, 0.0);
+  const Rig rig = parse_rig(with("refractive_index", "paint_depth_sigma_m: 0.003, refractive_index"), "rig.yaml");
+  EXPECT_DOUBLE_EQ(rig.camera("near").paint_depth_sigma_m, 0.003);
+}
+
 TEST(Rig, names_the_camera_that_a_command_needs_and_the_rig_lacks) {
   const Rig rig = parse_rig(good, "rig.yaml");
   EXPECT_THROW(
@@ -122,6 +128,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "cameras.near.distortion", "list of 5 values"},
         Refusal{"paint above the ice", with("paint_depth_m: 0.006", "paint_depth_m: -0.006"), "ice.paint_depth_m",
                 "from 0.0 to 0.05"},
+        Refusal{"negative sigma of the depth",
+                with("refractive_index", "paint_depth_sigma_m: -0.001, refractive_index"), "ice.paint_depth_sigma_m",
+                "from 0.0 to 0.01"},
         Refusal{"millimetres for metres", with("paint_depth_m: 0.006", "paint_depth_m: 6"), "ice.paint_depth_m",
                 "from 0.0 to 0.05"},
         Refusal{"a key twice", with("    gamma: 2.2\n", "    gamma: 2.2\n    gamma: 1.0\n"), "cameras.near.gamma",

@@ -67,6 +67,7 @@ class Faults : public testing::TestWithParam<const char*> {};
 
 TEST_P(Faults, early_in_the_run_end_in_a_stop_before_the_line_with_the_stone) {
   ThrowRequest request = request_of(tee_draw);
+  request.eyes = Eyes::oracle;
   request.fault = parse_fault(GetParam());
   ASSERT_TRUE(request.fault);
   const ThrowOutcome outcome = throw_stone(request, {});
@@ -86,7 +87,15 @@ TEST_P(Faults, early_in_the_run_end_in_a_stop_before_the_line_with_the_stone) {
 
 INSTANTIATE_TEST_SUITE_P(Table, Faults,
                          testing::Values("drive-heartbeat@1.0", "drive-dies@1.0", "camera-freeze@1.0",
-                                         "camera-stops@1.0", "modbus-stop@1.0", "gyro-silent@1.0", "can-down@1.0"));
+                                         "camera-stops@1.0", "camera-black@1.0", "modbus-stop@1.0", "gyro-silent@1.0",
+                                         "can-down@1.0"));
+
+TEST(Throw, the_oracle_throws_as_well) {
+  ThrowRequest request = request_of({"normal hit", 9, 2.54, 0.8, servo::Curl::counter_clockwise});
+  request.eyes = Eyes::oracle;
+  const ThrowResult r = throw_stone(request, {}).result;
+  EXPECT_TRUE(r.ok) << result_line(r);
+}
 
 TEST(Throw, the_same_seed_gives_the_same_throw) {
   ThrowRequest request = request_of(tee_draw);

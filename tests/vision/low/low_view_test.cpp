@@ -185,6 +185,23 @@ INSTANTIATE_TEST_SUITE_P(
                     s.patches.push_back({{-2.375, -2.223}, {y, y + 0.0127}, black});
                     s.patches.push_back({{2.223, 2.375}, {y, y + 0.0127}, black});
                   }},
+        EmptyCase{"a_line_of_four_centimetres",
+                  [](PaintedSheet& s) {
+                    s.patches.push_back({{-3.0, 3.0}, {rules::tee_to_hog_m, rules::tee_to_hog_m + 0.04}, black});
+                  }},
+        EmptyCase{"a_band_of_half_a_metre",
+                  [](PaintedSheet& s) {
+                    s.patches.push_back({{-3.0, 3.0}, {rules::tee_to_hog_m, rules::tee_to_hog_m + 0.5}, blue});
+                  }},
+        EmptyCase{"a_short_bar",
+                  [](PaintedSheet& s) {
+                    s.patches.push_back({{-1.5, 0.4}, {rules::tee_to_hog_m, rules::tee_to_hog_m + 0.1}, red});
+                  }},
+        EmptyCase{"the_other_ends_hog_line",
+                  [](PaintedSheet& s) {
+                    s.hog_line = true;
+                    s.house_beyond = true;
+                  }},
         EmptyCase{"a_logo",
                   [](PaintedSheet& s) {
                     s.patches.push_back({{-1.5, 1.5}, {6.2, 6.9}, blue});
@@ -218,7 +235,7 @@ TEST(low_view, refuses_what_is_no_picture_of_the_sheet) {
       {"white", cv::Mat(rows, columns, CV_8UC3, cv::Scalar(255, 255, 255))},
       {"noise", noise},
       {"a wall", wall},
-      {"grey and black", cv::Mat(rows, columns, CV_8UC1, cv::Scalar(0))},
+      {"grey", cv::Mat(rows, columns, CV_8UC1, cv::Scalar(150))},
       {"of another size", cv::Mat(480, 640, CV_8UC3, cv::Scalar(200, 200, 200))},
       {"of another type", cv::Mat(rows, columns, CV_32FC1, cv::Scalar(0.5))},
   };

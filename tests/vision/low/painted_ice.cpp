@@ -21,9 +21,10 @@ struct Footprint {
     const double hi = std::min(at[axis] + half[axis], end);
     return std::clamp((hi - lo) / (2.0 * half[axis]), 0.0, 1.0);
   }
-  double share_of_disc(double radius) const {
-    const double r = at.norm();
-    const double reach = r > 1e-9 ? (half.cwiseProduct(at.cwiseAbs()) / r).sum() : half.norm();
+  double share_of_disc(const Eigen::Vector2d& tee, double radius) const {
+    const Eigen::Vector2d from_tee = at - tee;
+    const double r = from_tee.norm();
+    const double reach = r > 1e-9 ? (half.cwiseProduct(from_tee.cwiseAbs()) / r).sum() : half.norm();
     return std::clamp((radius - r + reach) / (2.0 * reach), 0.0, 1.0);
   }
 };
@@ -32,14 +33,18 @@ void lay(Colour& ground, const Colour& colour, double share) {
   ground += static_cast<float>(share) * (colour - ground);
 }
 
+void lay_house(Colour& c, const Footprint& p, const Eigen::Vector2d& tee) {
+  lay(c, blue, p.share_of_disc(tee, rules::outer_ring_radius_m));
+  lay(c, white, p.share_of_disc(tee, rules::middle_ring_radius_m));
+  lay(c, red, p.share_of_disc(tee, rules::inner_ring_radius_m));
+  lay(c, white, p.share_of_disc(tee, rules::button_radius_m));
+}
+
 Colour light_of(const PaintedSheet& sheet, const Footprint& p) {
   Colour c = white;
-  if (sheet.rings) {
-    lay(c, blue, p.share_of_disc(rules::outer_ring_radius_m));
-    lay(c, white, p.share_of_disc(rules::middle_ring_radius_m));
-    lay(c, red, p.share_of_disc(rules::inner_ring_radius_m));
-    lay(c, white, p.share_of_disc(rules::button_radius_m));
-  }
+  const Eigen::Vector2d beyond(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
+  if (sheet.rings) lay_house(c, p, Eigen::Vector2d::Zero());
+  if (sheet.house_beyond) lay_house(c, p, beyond);
   for (const CrossLine& line : cross_lines()) {
     const bool hog = line.width_m() > 0.05;
     if (hog && !sheet.hog_line) continue;
@@ -55,6 +60,27 @@ Colour light_of(const PaintedSheet& sheet, const Footprint& p) {
     lay(c, patch.colour, p.share(0, patch.x_m[0], patch.x_m[1]) * p.share(1, patch.y_m[0], patch.y_m[1]));
   }
   return c;
+}
+
+constexpr int levels = 1 << 16;
+
+// By the level of linear light.
+std::vector<std::uint8_t> response_of(double gamma) {
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i <= levels; ++i) {
+    bytes.push_back(
+        static_cast<std::uint8_t>(std::lround(255.0 * std::pow(i / static_cast<double>(levels), 1.0 / gamma))));
+  }
+  return bytes;
+}
+
+// A stock of random numbers to draw from.
+std::vector<float> noise_of(const PaintedSheet& sheet) {
+  std::mt19937_64 random(sheet.seed);
+  std::normal_distribution<float> normal(0.0F, static_cast<float>(sheet.noise));
+  std::vector<float> noise(10007);
+  for (float& n : noise) n = normal(random);
+  return noise;
 }
 
 }  // namespace
@@ -83,8 +109,9 @@ cv::Mat paint(const CameraSetup& setup, const PaintedSheet& sheet) {
   const int width = setup.intrinsics.width_px;
   const int height = setup.intrinsics.height_px;
   std::vector<std::optional<Eigen::Vector2d>> above(static_cast<std::size_t>(width));
+  const std::vector<std::uint8_t> response = response_of(setup.gamma);
+  const std::vector<float> noise = noise_of(sheet);
   std::mt19937_64 random(sheet.seed);
-  std::normal_distribution<float> noise(0.0F, static_cast<float>(sheet.noise));
   cv::Mat image(height, width, CV_8UC3);
   for (int v = 0; v < height; ++v) {
     std::optional<Eigen::Vector2d> before;
@@ -99,9 +126,10 @@ cv::Mat paint(const CameraSetup& setup, const PaintedSheet& sheet) {
       before = at;
       up = at;
       cv::Vec3b& pixel = image.at<cv::Vec3b>(v, u);
-      for (int k = 0; k < 3; ++k) {
-        const double linear = std::clamp(static_cast<double>(light[k] + noise(random)), 0.0, 1.0);
-        pixel[k] = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(linear, 1.0 / setup.gamma)));
+      const std::size_t first = random() % (noise.size() - 2);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float linear = std::clamp(light[static_cast<int>(k)] + noise[first + k], 0.0F, 1.0F);
+        pixel[static_cast<int>(k)] = response[static_cast<std::size_t>(linear * static_cast<float>(levels))];
       }
     }
   }

@@ -34,6 +34,7 @@ struct PaintedSheet {
   bool hog_line = true;
   bool centre_line = true;
   bool rings = true;
+  bool house_beyond = false;  ///< another house beyond the hog line, as before the other end's
   double width_m = 4.75;
   std::optional<double> left_sideline_m = 0.05;  ///< paint's width; empty: none
   std::optional<double> right_sideline_m = 0.05;

@@ -1,0 +1,118 @@
+// What can happen to the gyro and its line.
+#include <numbers>
+
+#include "src/faults/fault_case.hpp"
+
+namespace hogline::faults {
+namespace {
+
+using namespace std::chrono_literals;
+using hw::sim::GyroDevice;
+
+constexpr double deg = std::numbers::pi / 180.0;
+constexpr Duration silence = 45ms;  // the silence limit, a reading and a control period
+
+GyroDevice& gyro(Site& s) { return s.rink().gyro(); }
+
+Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
+  return {.name = name,
+          .group = Group::gyro,
+          .injected = injected,
+          .deadline = deadline,
+          .says = says,
+          .inject = std::move(inject),
+          .heal = std::move(heal)};
+}
+
+Case with(Case c, Strike strike) {
+  c.strike = strike;
+  return c;
+}
+
+Case on(Case c, Duration lasts) {
+  c.expect = Expect::goes_on;
+  c.lasts = lasts;
+  c.deadline = {};
+  c.says.clear();
+  return c;
+}
+
+Action biased(double degps) {
+  return [degps](Site& s) { gyro(s).add_bias(degps * deg); };
+}
+
+Case at_line_rate(const char* name, const char* injected, double factor) {
+  Case c = on(stops(name, injected, {}, "", [](Site&) {}, {}), {});
+  c.strike = Strike::power_on;
+  c.prepare = [factor](ThrowRequest& request) { request.scenario.gyro.line_rate_hz *= factor; };
+  return c;
+}
+
+Case wrong_mode(const char* injected) {
+  return stops(
+      "wrong mode", injected, 1s, "gyro",
+      [](Site& s) {
+        gyro(s).set_mode(GyroDevice::Mode::incremental_angle);
+        gyro(s).set_deaf(true);
+      },
+      [](Site& s) { gyro(s).set_deaf(false); });
+}
+
+Case over_words(Case c) {
+  c.prepare = [](ThrowRequest& request) { request.rig.gyro.variant = hw::Dsp3000Variant::binary; };
+  return c;
+}
+
+}  // namespace
+
+std::vector<Case> gyro_faults() {
+  const Action silent = [](Site& s) { gyro(s).set_silent(true); };
+  const Action speaks = [](Site& s) { gyro(s).set_silent(false); };
+  Case unnoticed = on(wrong_mode("incremental angle instead of rate, in the run"), {});
+  unnoticed.shortcoming =
+      "the text variant does not say its mode, and on a straight run an angle's increment looks like a small rate. "
+      "Nobody notices: the stone is let go in its window, but its heading can be off by more than the tolerance. On "
+      "steel a "
+      "mode changes with a loss of power, and that is a silence: the adapter then asks for the rate again. The binary "
+      "variant tells its mode, and is found out at once.";
+  return {
+      stops("silence", "no more readings", silence, "gyro: timeout", silent, speaks),
+      with(stops("silence", "the same, while the robot measures", silence, "gyro: timeout", silent, speaks),
+           Strike::measuring),
+      with(stops("silence", "the same, while the robot turns", silence, "gyro: timeout", silent, speaks),
+           Strike::aligning),
+      on(stops("one reading missing", "silent for 10 ms", {}, "", silent, speaks), 10ms),
+      stops(
+          "invalid bit", "each reading is marked 0", silence, "gyro", [](Site& s) { gyro(s).set_valid(false); },
+          [](Site& s) { gyro(s).set_valid(true); }),
+      stops(
+          "garbled", "bits of each line are flipped", silence, "gyro", [](Site& s) { gyro(s).set_garbled(true); },
+          [](Site& s) { gyro(s).set_garbled(false); }),
+      stops(
+          "stuck", "the last reading again and again", 140ms, "gyro: implausible",
+          [](Site& s) { gyro(s).set_stuck(true); }, [](Site& s) { gyro(s).set_stuck(false); }),
+      with(stops("bias step", "0.5 deg/s while the robot measures", 3s, "gyro", biased(0.5), biased(-0.5)),
+           Strike::measuring),
+      stops("bias step", "20 deg/s in the run", 200ms, "gyro and wheels disagree", biased(20.0), biased(-20.0)),
+      stops("bias step", "2 deg/s in the run", 1s, "the sheet's direction and the gyro disagree", biased(2.0),
+            biased(-2.0)),
+      stops("overrange", "600 deg/s, marked valid", silence, "gyro: implausible", biased(600.0), biased(-600.0)),
+      with(wrong_mode("incremental angle instead of rate, while the robot turns"), Strike::aligning),
+      unnoticed,
+      over_words(wrong_mode("incremental angle instead of rate, binary variant")),
+      on(stops(
+             "burst after a stall", "held for 10 ms, then all at once", {}, "", [](Site& s) { gyro(s).set_held(true); },
+             [](Site& s) { gyro(s).set_held(false); }),
+         10ms),
+      stops(
+          "burst after a long stall", "held for 0.3 s, then all at once", silence, "gyro: timeout",
+          [](Site& s) { gyro(s).set_held(true); }, [](Site& s) { gyro(s).set_held(false); }),
+      stops(
+          "tty renamed", "the serial device is gone, and comes back", 15ms, "gyro: disconnected",
+          [](Site& s) { s.robot.gyro_line().unplug(true); }, [](Site& s) { s.robot.gyro_line().unplug(false); }),
+      at_line_rate("3 % slower", "97 readings a second from power-on", 0.97),
+      at_line_rate("3 % faster", "103 readings a second from power-on", 1.03),
+  };
+}
+
+}  // namespace hogline::faults

@@ -1,0 +1,53 @@
+#include "src/faults_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "src/exit_status.hpp"
+#include "src/faults/fault_page.hpp"
+
+namespace hogline {
+namespace {
+
+bool wanted(const faults::Case& fault, const std::string& only) {
+  return (std::string(to_string(fault.group)) + " " + fault.name + " " + fault.injected).find(only) !=
+         std::string::npos;
+}
+
+void tell(const faults::Case& fault, const faults::Finding& finding) {
+  fmt::print(stderr, "{:6} {} ({}, {}): {}\n", to_string(fault.group), fault.name, fault.injected,
+             to_string(fault.strike),
+             finding.failures.empty() ? "as it should be" : fmt::format("{}", fmt::join(finding.failures, "; ")));
+}
+
+void write(const std::string& path, const std::string& page) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << page;
+  stream.close();
+  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
+}
+
+}  // namespace
+
+int run_faults(const FaultsOptions& options) {
+  std::vector<faults::Row> rows;
+  bool all_well = true;
+  for (const faults::Case& fault : faults::fault_table()) {
+    if (!wanted(fault, options.only)) continue;
+    rows.push_back({fault, faults::try_fault(fault)});
+    tell(fault, rows.back().finding);
+    all_well = all_well && (rows.back().finding.failures.empty() || !fault.shortcoming.empty());
+  }
+  const std::string page = fault_page(rows);
+  if (options.out.empty()) {
+    fmt::print("{}", page);
+  } else {
+    write(options.out, page);
+  }
+  return all_well ? ExitStatus::success : ExitStatus::not_achieved;
+}
+
+}  // namespace hogline

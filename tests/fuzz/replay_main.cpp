@@ -1,0 +1,23 @@
+// Runs a fuzz target over every file of a folder, without a fuzzer: what was found once stays found.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(arguments[1])) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    ++files;
+  }
+  std::printf("%d inputs\n", files);
+  return files > 0 ? 0 : 1;
+}
