@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "vision/detect/granite.hpp"
-#include "vision/detect/white_light.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/stone_verdict.hpp"
 
@@ -121,7 +121,8 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
 
 // Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:
 // with the stones that are known by now left out of the picture.
-std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
+std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const WhiteLight& ice,
+                                                   const SheetCamera& camera,
                                                    const std::vector<StoneCandidate>& candidates) const {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
