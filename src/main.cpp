@@ -4,12 +4,14 @@
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
+#include "src/board_command.hpp"
 #include "src/config/config_error.hpp"
 #include "src/demo_command.hpp"
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults_command.hpp"
 #include "src/pose_command.hpp"
+#include "src/stones_command.hpp"
 #include "src/throw_command.hpp"
 
 namespace {
@@ -52,6 +54,33 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return pose;
+}
+
+CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
+  auto* stones = app.add_subcommand("stones", "the stones on the sheet from pictures of the near camera");
+  stones->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")
+      ->required();
+  stones->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
+  stones->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  stones->footer(
+      "Prints one JSON object a line, places in metres from the tee of the house in view.\n"
+      "Example:\n"
+      "  hogline stones --rig rig.yaml frame.jpg\n"
+      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+  return stones;
+}
+
+CLI::App* add_board(CLI::App& app, hogline::BoardOptions& options) {
+  auto* board = app.add_subcommand("board", "what lies on the sheet under the rules, printed and drawn");
+  board->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")->required();
+  board->add_option("--out", options.out, "folder for the drawing");
+  board->add_option("IMAGE", options.images, "pictures of one robot that stands still; their stones are averaged")
+      ->required();
+  board->footer(
+      "Example:\n"
+      "  hogline board --rig rig.yaml --out out/board frame-*.jpg\n"
+      "Exit status: 0 seen, 1 not seen in any picture, 2 wrong use or configuration.");
+  return board;
 }
 
 void add_shot(CLI::App* app, hogline::ThrowOptions& options) {
@@ -132,10 +161,14 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", HOGLINE_VERSION);
   app.require_subcommand(1);
   hogline::PoseOptions pose_options;
+  hogline::StonesOptions stones_options;
+  hogline::BoardOptions board_options;
   hogline::ThrowOptions throw_options;
   hogline::ThrowOptions demo_options;
   demo_options.out = "out/demo";
   const auto* pose = add_pose(app, pose_options);
+  const auto* stones = add_stones(app, stones_options);
+  const auto* board = add_board(app, board_options);
   const auto* throwing = add_throw(app, throw_options);
   const auto* demo = add_demo(app, demo_options);
   hogline::DoctorOptions doctor_options;
@@ -148,6 +181,8 @@ int run(int argc, char** argv) {
     return app.exit(e) == 0 ? ExitStatus::success : ExitStatus::wrong_use;
   }
   if (*pose) return hogline::run_pose(pose_options);
+  if (*stones) return hogline::run_stones(stones_options);
+  if (*board) return hogline::run_board(board_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
   if (*faults) return hogline::run_faults(faults_options);

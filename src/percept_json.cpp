@@ -1,5 +1,6 @@
 #include "src/percept_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -34,7 +35,26 @@ void add_nothing(ordered_json& line) {
   }
 }
 
+ordered_json stone_json(const StoneSighting& s) {
+  return {{"x_m", s.x_m},
+          {"y_m", s.y_m},
+          {"team", team_name(s.team)},
+          {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))}};
+}
+
 }  // namespace
+
+const char* team_name(Team team) {
+  switch (team) {
+    case Team::first:
+      return "red";
+    case Team::second:
+      return "yellow";
+    case Team::unknown:
+      break;
+  }
+  return "unknown";
+}
 
 std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms) {
   ordered_json line;
@@ -46,6 +66,17 @@ std::string pose_line(const std::string& image, const SheetPosePercept& percept,
     add_nothing(line);
   }
   line["features"] = percept.features;
+  line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
+  line["reason"] = percept.reason.empty() ? ordered_json(nullptr) : ordered_json(percept.reason);
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string stones_line(const std::string& image, const StonesPercept& percept, double elapsed_ms) {
+  ordered_json line;
+  line["image"] = image;
+  line["ok"] = percept.ok;
+  line["stones"] = ordered_json::array();
+  for (const StoneSighting& s : percept.stones) line["stones"].push_back(stone_json(s));
   line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
   line["reason"] = percept.reason.empty() ? ordered_json(nullptr) : ordered_json(percept.reason);
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
-#include "hw/files/png_writer.hpp"
 #include "src/config/config_error.hpp"
 #include "src/config/rig.hpp"
 #include "src/drawing/picture_overlay.hpp"
+#include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
 #include "src/picture_reader.hpp"
@@ -70,14 +68,6 @@ Estimator estimator(const PoseOptions& options, const vision::CameraSetup& setup
   return options.sequence ? low_sequence_estimator(setup) : low_estimator(setup);
 }
 
-void save(const std::string& folder, const std::string& image, const cv::Mat& drawing) {
-  std::filesystem::path name = std::filesystem::path(image).filename();
-  if (name.string().find('#') == std::string::npos) name = name.stem();
-  if (const auto problem = hw::files::write_png((std::filesystem::path(folder) / name).string() + ".png", drawing)) {
-    throw std::runtime_error(*problem);
-  }
-}
-
 void check_use(const PoseOptions& options) {
   if (options.rate_hz && !(*options.rate_hz >= 0.1 && *options.rate_hz <= 1000.0)) {
     throw config::ConfigError("command line", 0, "--rate", fmt::format("{}", *options.rate_hz),
@@ -112,7 +102,7 @@ int run_pose(const PoseOptions& options) {
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", pose_line(picture->name, percept, elapsed.count()));
     std::fflush(stdout);
-    if (!drawing.empty()) save(options.draw, picture->name, drawing);
+    if (!drawing.empty()) save_drawing(options.draw, picture->name, drawing);
     all_estimated = all_estimated && percept.ok;
   }
   return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;

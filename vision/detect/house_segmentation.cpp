@@ -50,7 +50,7 @@ Samples sample(const cv::Mat& image, const ResponseCurve& response, const Ground
 
 // The light of white ice, block by block: a high percentile, which lamps' reflections do not reach, and the best of the
 // neighbouring blocks, for those that paint fills.
-cv::Mat ice_light(const Samples& s) {
+cv::Mat white_light(const Samples& s) {
   const cv::Size blocks(s.light.cols / block_cells + 1, s.light.rows / block_cells + 1);
   cv::Mat level(blocks, CV_32FC3, cv::Scalar::all(0));
   std::vector<float> values;
@@ -81,7 +81,7 @@ cv::Mat ice_light(const Samples& s) {
 
 // Colour relative to the white ice near by, so that shade and vignetting do not make colours of their own.
 cv::Mat relative_to_ice(const Samples& s) {
-  const cv::Mat ice = ice_light(s);
+  const cv::Mat ice = white_light(s);
   cv::Mat relative(s.light.size(), CV_32FC3);
   for (int r = 0; r < s.light.rows; ++r) {
     for (int c = 0; c < s.light.cols; ++c) {

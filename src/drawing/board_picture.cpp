@@ -1,0 +1,86 @@
+#include "src/drawing/board_picture.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "src/drawing/canvas.hpp"
+#include "src/drawing/sheet_plan.hpp"
+
+namespace hogline::drawing {
+namespace {
+
+constexpr double from_y_m = -2.6;
+constexpr double to_y_m = 7.0;
+constexpr int outline_points = 48;
+
+Ink ink_of(Team team) {
+  switch (team) {
+    case Team::first:
+      return inks::red;
+    case Team::second:
+      return inks::yellow;
+    case Team::unknown:
+      break;
+  }
+  return inks::faint;
+}
+
+template <typename Curve>
+std::vector<Eigen::Vector2d> projected(const vision::SheetCamera& camera, const Curve& curve) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (int i = 0; i <= outline_points; ++i) {
+    const auto pixel = camera.project(curve(2.0 * std::numbers::pi * i / outline_points));
+    if (!pixel) return {};
+    pixels.push_back(*pixel);
+  }
+  return pixels;
+}
+
+}  // namespace
+
+cv::Mat draw_stones(const cv::Mat& picture, const vision::Board& board, const vision::SheetCamera& camera,
+                    const vision::StoneShape& shape) {
+  Canvas canvas(picture);
+  const Eigen::Vector3d eye = camera.eMc().translation();
+  for (const vision::RuledStone& s : board.stones) {
+    const Eigen::Vector2d place(s.seen.x_m, s.seen.y_m);
+    const vision::Bearing bearing = vision::bearing_of(place, eye);
+    const Ink ink = ink_of(s.seen.team);
+    canvas.poly_line(projected(camera, [&](double a) { return vision::body_outline_point(place, shape, eye, a); }),
+                     inks::sky, 1.5);
+    canvas.poly_line(projected(camera,
+                               [&](double a) {
+                                 return vision::circle_point(place, bearing, shape.handle_radius_m,
+                                                             shape.handle_height_m, a);
+                               }),
+                     ink, 2.0);
+    const auto above = camera.project({place.x(), place.y(), shape.handle_height_m + 0.12});
+    if (above && s.order > 0) {
+      canvas.text(*above, std::to_string(s.order), 14.0, ink,
+                  {.anchor = Anchor::centre, .bold = true, .halo = inks::text});
+    }
+  }
+  return canvas.picture();
+}
+
+cv::Mat draw_board(const vision::Board& board, std::optional<double> sheet_width_m, int length_px) {
+  SheetPlan plan;
+  plan.title = board.shot ? "shot stone ringed, numbered by distance" : "no stone in the house";
+  plan.width_m = sheet_width_m.value_or(vision::rules::nominal_width_m);
+  plan.direction = ThrowDirection::up;
+  plan.from_y_m = from_y_m;
+  plan.to_y_m = to_y_m;
+  for (std::size_t i = 0; i < board.stones.size(); ++i) {
+    const vision::RuledStone& s = board.stones[i];
+    PlanStone stone;
+    stone.place_m = {s.seen.x_m, s.seen.y_m};
+    stone.handle_rad = s.seen.handle_rad.value_or(0.0);
+    stone.team = ink_of(s.seen.team);
+    stone.label = s.order > 0 ? std::to_string(s.order) : std::string();
+    stone.ringed = board.shot && *board.shot == i;
+    plan.stones.push_back(stone);
+  }
+  return draw_sheet_plan(plan, length_px);
+}
+
+}  // namespace hogline::drawing

@@ -1,0 +1,142 @@
+#include "tests/support/random_board.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hw/sim/mixed_bits.hpp"
+#include "hw/sim/solids.hpp"
+#include "vision/geometry/stone_shape.hpp"
+
+namespace hogline::testing {
+namespace {
+
+using hw::sim::Colour;
+
+constexpr double touching_m = 2.0 * vision::rules::stone_radius_m + 0.001;
+constexpr double clear_of_camera_m = 1.6;
+
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : seed_(hw::sim::mixed_bits(seed ^ 0x626f617264ULL)) {}
+  double uniform(double from, double to) {
+    return from + (to - from) * hw::sim::uniform_of(hw::sim::mixed_bits(seed_ + ++drawn_));
+  }
+  bool chance(double share) { return uniform(0.0, 1.0) < share; }
+  int upto(int most) { return static_cast<int>(uniform(0.0, most + 1.0)); }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t drawn_ = 0;
+};
+
+bool is_free(const std::vector<BoardStone>& stones, double x_m, double y_m) {
+  return std::none_of(stones.begin(), stones.end(),
+                      [&](const BoardStone& s) { return std::hypot(s.x_m - x_m, s.y_m - y_m) < touching_m - 1e-6; });
+}
+
+struct Limits {
+  double half_width_m;
+  double min_y_m;
+  double max_y_m = 6.2;
+  bool contain(double x_m, double y_m) const { return std::abs(x_m) < half_width_m && y_m > min_y_m && y_m < max_y_m; }
+};
+
+// A stone anywhere, or one that touches the last one.
+bool add_stone(Dice& dice, const Limits& limits, bool touching, std::vector<BoardStone>& stones) {
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    double x_m = dice.uniform(-limits.half_width_m, limits.half_width_m);
+    double y_m = dice.chance(0.6) ? dice.uniform(limits.min_y_m, 2.0) : dice.uniform(2.0, limits.max_y_m);
+    if (touching) {
+      const double angle = dice.uniform(0.0, 2.0 * std::numbers::pi);
+      x_m = stones.back().x_m + touching_m * std::cos(angle);
+      y_m = stones.back().y_m + touching_m * std::sin(angle);
+    }
+    if (!limits.contain(x_m, y_m) || !is_free(stones, x_m, y_m)) continue;
+    stones.push_back({x_m, y_m, dice.chance(0.5)});
+    return true;
+  }
+  return false;
+}
+
+/// Everything that can stand before a stone.
+class Sight {
+ public:
+  Sight(const vision::Pose& eMc, const hw::sim::Exposure& exposure) : eye_(eMc.translation()) {
+    for (const auto& look : exposure.stones) solids_.push_back(hw::sim::Solid::stone(look));
+    stones_ = solids_.size();
+    for (const auto& look : exposure.people) solids_.push_back(hw::sim::Solid::person(look));
+  }
+
+  bool sees(const Eigen::Vector3d& point, std::size_t own) const {
+    const hw::sim::Ray ray{eye_.cast<float>(), (point - eye_).cast<float>()};
+    for (std::size_t i = 0; i < solids_.size(); ++i) {
+      if (i == own) continue;
+      const auto hit = solids_[i].meet(ray);
+      if (hit && hit->distance < 1.0F) return false;
+    }
+    return true;
+  }
+
+ private:
+  Eigen::Vector3d eye_;
+  std::vector<hw::sim::Solid> solids_;
+  std::size_t stones_ = 0;
+};
+
+void measure_visibility(RandomBoard& board) {
+  const Sight sight(board.scene.eMc, board.scene.exposure);
+  const Eigen::Vector3d eye = board.scene.eMc.translation();
+  for (std::size_t i = 0; i < board.stones.size(); ++i) {
+    BoardStone& s = board.stones[i];
+    const vision::Bearing bearing = vision::bearing_of({s.x_m, s.y_m}, eye);
+    int handle = 0;
+    int body = 0;
+    constexpr int points = 48;
+    for (int k = 0; k < points; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / points;
+      const double part = std::sqrt((k % 4 + 0.5) / 4.0);
+      handle += sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.095 * part, 0.126, angle), i) ? 1 : 0;
+      const double front = -std::numbers::pi * (k + 0.5) / points;
+      body +=
+          sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.1455, 0.03 + 0.02 * (k % 4), front), i) ? 1 : 0;
+    }
+    s.handle_seen = static_cast<double>(handle) / points;
+    s.body_seen = static_cast<double>(body) / points;
+  }
+}
+
+}  // namespace
+
+RandomBoard random_board(std::uint64_t seed, const BoardMix& mix) {
+  Dice dice(seed);
+  RandomBoard board;
+  board.scene = random_scene(seed, {.most_stones = 0, .most_people = mix.most_people});
+  const Limits limits{0.5 * board.scene.sheet_width_m - 0.15,
+                      std::max(board.scene.body.y_m + clear_of_camera_m + 0.4, -2.0)};
+  const int count = dice.upto(mix.most_stones);
+  while (static_cast<int>(board.stones.size()) < count) {
+    const int clump = dice.chance(0.5) ? 1 : 1 + dice.upto(mix.most_in_clump - 1);
+    for (int k = 0; k < clump && static_cast<int>(board.stones.size()) < count; ++k) {
+      if (!add_stone(dice, limits, k > 0, board.stones)) break;
+    }
+  }
+  const double granite = dice.uniform(0.13, 0.30);
+  const double bright = dice.uniform(0.7, 1.2);
+  for (const BoardStone& s : board.stones) {
+    hw::sim::StoneLook look;
+    look.x_m = s.x_m;
+    look.y_m = s.y_m;
+    look.handle_rad = dice.uniform(-3.1, 3.1);
+    const Colour plate = s.red ? Colour{0.55F, 0.03F, 0.03F} : Colour{0.72F, 0.52F, 0.03F};
+    const auto b = static_cast<float>(bright);
+    look.plate = {b * plate.red, b * plate.green, b * plate.blue};
+    const auto g = static_cast<float>(granite);
+    look.granite = {g, g, 1.03F * g};
+    board.scene.exposure.stones.push_back(look);
+  }
+  measure_visibility(board);
+  return board;
+}
+
+}  // namespace hogline::testing

@@ -1,0 +1,35 @@
+// Boards nobody has chosen: stones alone and in clumps on a random sheet, as the skip's near camera sees them, with
+// people in front and behind. Rendered by hw/sim, with exact truth.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/support/random_scene.hpp"
+
+namespace hogline::testing {
+
+struct BoardStone {
+  double x_m = 0.0;  ///< in e
+  double y_m = 0.0;
+  bool red = false;          ///< else yellow
+  double handle_seen = 1.0;  ///< share of the handle's face that nothing else hides
+  double body_seen = 1.0;    ///< the same of the body's front
+};
+
+struct RandomBoard {
+  RandomScene scene;
+  std::vector<BoardStone> stones;
+};
+
+struct BoardMix {
+  int most_stones = 16;
+  int most_in_clump = 5;  ///< touching
+  int most_people = 2;
+};
+
+/// The same seed and mix give the same board. Draw its picture with render(board.scene).
+RandomBoard random_board(std::uint64_t seed, const BoardMix& mix = {});
+
+}  // namespace hogline::testing

@@ -1,0 +1,94 @@
+#include "tests/vision/stones/board_score.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/random_board.hpp"
+#include "vision/stones.hpp"
+
+namespace hogline::vision::testing {
+namespace {
+
+constexpr double same_place_m = 0.12;
+
+bool can_be_seen(const hogline::testing::BoardStone& s) {
+  return s.handle_seen >= 0.5 && s.handle_seen + s.body_seen >= 0.8;
+}
+
+std::string line(std::uint64_t seed, const char* what, double x_m, double y_m, const std::string& why) {
+  char text[256];
+  std::snprintf(text, sizeof text, "board %llu: %s at (%.2f, %.2f) %s", static_cast<unsigned long long>(seed), what,
+                x_m, y_m, why.c_str());
+  return text;
+}
+
+std::string seen_of(const hogline::testing::BoardStone& s) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(handle %.0f %%, body %.0f %% in sight): ", 100.0 * s.handle_seen,
+                100.0 * s.body_seen);
+  return text;
+}
+
+std::string doubt_near(const StonesSketch& sketch, double x_m, double y_m) {
+  for (const auto& c : sketch.candidates) {
+    if (std::hypot(c.votes.place.x() - x_m, c.votes.place.y() - y_m) < same_place_m) return c.doubt;
+  }
+  return "no votes";
+}
+
+void score(std::uint64_t seed, BoardScore& total) {
+  const hogline::testing::RandomBoard board = hogline::testing::random_board(seed);
+  const cv::Mat picture = hogline::testing::render(board.scene);
+  StonesSetup setup;
+  setup.camera = board.scene.setup;
+  StoneFinder finder(setup);
+  StonesSketch sketch;
+  const StonesPercept seen = finder.find(picture, {}, board.scene.eMc, board.scene.sheet_width_m, &sketch);
+  ++total.boards;
+  std::vector<bool> used(seen.stones.size(), false);
+  for (const auto& truth : board.stones) {
+    const bool wanted = can_be_seen(truth);
+    total.stones += wanted ? 1 : 0;
+    bool hit = false;
+    for (std::size_t i = 0; i < seen.stones.size() && !hit; ++i) {
+      const StoneSighting& s = seen.stones[i];
+      const double error = std::hypot(s.x_m - truth.x_m, s.y_m - truth.y_m);
+      if (used[i] || error > same_place_m) continue;
+      used[i] = hit = true;
+      if (!wanted) break;
+      ++total.found;
+      total.errors_m.push_back(error);
+      if (std::hypot(truth.x_m, truth.y_m) < 2.0) total.house_errors_m.push_back(error);
+      if (s.team == Team::unknown) ++total.unknown_team;
+      if (s.team != Team::unknown && (s.team == Team::first) != truth.red) {
+        ++total.wrong_team;
+        total.failures.push_back(line(seed, "wrong team", truth.x_m, truth.y_m, ""));
+      }
+    }
+    if (wanted && !hit) {
+      total.failures.push_back(
+          line(seed, "missed", truth.x_m, truth.y_m, seen_of(truth) + doubt_near(sketch, truth.x_m, truth.y_m)));
+    }
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) continue;
+    ++total.ghosts;
+    total.failures.push_back(line(seed, "ghost", seen.stones[i].x_m, seen.stones[i].y_m, ""));
+  }
+}
+
+}  // namespace
+
+double BoardScore::rms(const std::vector<double>& v) {
+  double sum = 0.0;
+  for (const double x : v) sum += x * x;
+  return v.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(v.size()));
+}
+
+BoardScore score_boards(std::uint64_t first, int count) {
+  BoardScore total;
+  for (int i = 0; i < count; ++i) score(first + static_cast<std::uint64_t>(i), total);
+  return total;
+}
+
+}  // namespace hogline::vision::testing

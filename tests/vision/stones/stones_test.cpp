@@ -1,0 +1,170 @@
+#include "vision/stones.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/support/random_board.hpp"
+#include "tests/vision/scene.hpp"
+#include "tests/vision/stones/board_score.hpp"
+
+namespace hogline::vision {
+namespace {
+
+using hogline::testing::random_board;
+using hogline::testing::RandomBoard;
+
+StonesSetup setup_of(const CameraSetup& camera) {
+  StonesSetup setup;
+  setup.camera = camera;
+  return setup;
+}
+
+StonesPercept look(const RandomBoard& board) {
+  StoneFinder finder(setup_of(board.scene.setup));
+  return finder.find(hogline::testing::render(board.scene), {}, board.scene.eMc, board.scene.sheet_width_m);
+}
+
+// A bare sheet: neither stones nor people.
+RandomBoard bare(std::uint64_t seed) { return random_board(seed, {.most_stones = 0, .most_people = 0}); }
+
+hw::sim::StoneLook red_stone(double x_m, double y_m) {
+  hw::sim::StoneLook stone;
+  stone.x_m = x_m;
+  stone.y_m = y_m;
+  return stone;
+}
+
+TEST(Stones, AllOfAPathTracedSceneWithTheirTeams) {
+  const auto scene = testing::load_scene("skip/skip-12-002");
+  const auto truth = nlohmann::json::parse(std::ifstream(std::string(HOGLINE_TEST_DATA) + "/skip/skip-12-002.json"));
+  StoneFinder finder(setup_of(scene.setup));
+  const StonesPercept seen = finder.find(scene.image, {}, scene.eMc, scene.sheet_width_m);
+  ASSERT_TRUE(seen.ok) << seen.reason;
+  EXPECT_EQ(seen.stones.size(), truth.at("stones").size());
+  for (const auto& t : truth.at("stones")) {
+    const double x_m = t.at("x_end");
+    const double y_m = t.at("y_end");
+    bool found = false;
+    for (const StoneSighting& s : seen.stones) {
+      if (std::hypot(s.x_m - x_m, s.y_m - y_m) > 0.025) continue;
+      found = true;
+      EXPECT_EQ(s.team, t.at("team") == "red" ? Team::first : Team::second);
+      const double sigma_m = std::sqrt(s.covariance.xx_m2 + s.covariance.yy_m2);
+      EXPECT_LT(std::hypot(s.x_m - x_m, s.y_m - y_m), 4.0 * sigma_m) << "the covariance is too small";
+      EXPECT_LT(sigma_m, 0.03);
+    }
+    EXPECT_TRUE(found) << x_m << " " << y_m;
+  }
+}
+
+TEST(Stones, RandomBoardsWithClumpsAndPeople) {
+  const testing::BoardScore score = testing::score_boards(201, 12);
+  EXPECT_GE(score.recall(), 0.94) << ::testing::PrintToString(score.failures);
+  EXPECT_GE(score.precision(), 0.99) << ::testing::PrintToString(score.failures);
+  EXPECT_EQ(score.wrong_team, 0) << ::testing::PrintToString(score.failures);
+  EXPECT_LT(testing::BoardScore::rms(score.house_errors_m), 0.008);
+  EXPECT_LT(testing::BoardScore::rms(score.errors_m), 0.020);
+}
+
+TEST(Stones, AnEmptySheetIsOkAndEmpty) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const RandomBoard board = bare(seed);
+    const StonesPercept seen = look(board);
+    EXPECT_TRUE(seen.ok);
+    EXPECT_TRUE(seen.stones.empty()) << board.scene.what;
+  }
+}
+
+TEST(Stones, LogosOfTheHandlesColoursAreNone) {
+  RandomBoard board = bare(4);
+  for (const double x_m : {-1.2, -0.4, 0.5, 1.3}) {
+    board.scene.rink.sheet.logos.push_back({x_m, 2.8, 0.19, 0.19, {0.55F, 0.02F, 0.02F}});
+    board.scene.rink.sheet.logos.push_back({x_m, 0.4, 0.25, 0.2, {0.75F, 0.55F, 0.03F}});
+  }
+  EXPECT_TRUE(look(board).stones.empty());
+}
+
+TEST(Stones, PeoplesFeetAreNone) {
+  RandomBoard board = bare(5);
+  for (const double x_m : {-1.0, 0.2, 1.1}) {
+    hw::sim::PersonLook person;
+    person.x_m = x_m;
+    person.y_m = 0.8 + x_m;
+    person.trousers = {0.2F, 0.2F, 0.2F};  // as grey as granite
+    person.jacket = {0.55F, 0.02F, 0.02F};
+    board.scene.exposure.people.push_back(person);
+  }
+  EXPECT_TRUE(look(board).stones.empty());
+}
+
+TEST(Stones, TheNeighbouringSheetsStoneIsNotOurs) {
+  RandomBoard board = bare(6);
+  const double edge_m = 0.5 * board.scene.sheet_width_m;
+  board.scene.exposure.stones = {red_stone(edge_m + 0.5, 1.0), red_stone(0.3, 1.0)};
+  const StonesPercept seen = look(board);
+  ASSERT_EQ(seen.stones.size(), 1U);
+  EXPECT_NEAR(seen.stones[0].x_m, 0.3, 0.02);
+}
+
+TEST(Stones, AnUnknownHandleIsNotGuessedAt) {
+  RandomBoard board = bare(7);
+  hw::sim::StoneLook blue = red_stone(0.4, 0.9);
+  blue.plate = {0.02F, 0.08F, 0.5F};
+  board.scene.exposure.stones = {blue, red_stone(-0.5, 0.9)};
+  const StonesPercept seen = look(board);
+  ASSERT_EQ(seen.stones.size(), 2U);
+  for (const StoneSighting& s : seen.stones) EXPECT_EQ(s.team, s.x_m > 0.0 ? Team::unknown : Team::first);
+}
+
+TEST(Stones, TouchingStonesAreTwo) {
+  RandomBoard board = bare(8);
+  const double apart_m = 2.0 * rules::stone_radius_m;
+  board.scene.exposure.stones = {red_stone(0.0, 1.0), red_stone(apart_m, 1.0),
+                                 red_stone(0.5 * apart_m, 1.0 + 0.87 * apart_m)};
+  const StonesPercept seen = look(board);
+  EXPECT_EQ(seen.stones.size(), 3U);
+}
+
+TEST(Stones, TheSamePictureGivesTheSameBytes) {
+  const RandomBoard board = random_board(9);
+  const StonesPercept a = look(board);
+  const StonesPercept b = look(board);
+  ASSERT_EQ(a.stones.size(), b.stones.size());
+  for (std::size_t i = 0; i < a.stones.size(); ++i) {
+    EXPECT_EQ(a.stones[i].x_m, b.stones[i].x_m);
+    EXPECT_EQ(a.stones[i].y_m, b.stones[i].y_m);
+  }
+}
+
+TEST(Stones, APictureThatCanNotBeUsedIsRefusedWithAReason) {
+  const RandomBoard board = bare(10);
+  StoneFinder finder(setup_of(board.scene.setup));
+  const auto refuses = [&](const cv::Mat& image, const char* what) {
+    const StonesPercept seen = finder.find(image, {}, board.scene.eMc, std::nullopt);
+    EXPECT_FALSE(seen.ok) << what;
+    EXPECT_FALSE(seen.reason.empty()) << what;
+    EXPECT_TRUE(seen.stones.empty()) << what;
+  };
+  refuses({}, "empty");
+  refuses(cv::Mat(1200, 1600, CV_8UC1, cv::Scalar(0)), "grey");
+  refuses(cv::Mat(600, 800, CV_8UC3, cv::Scalar::all(0)), "another size");
+}
+
+TEST(Stones, DarknessAndGlareHoldNoStones) {
+  const RandomBoard board = bare(11);
+  StoneFinder finder(setup_of(board.scene.setup));
+  for (const int level : {0, 3, 128, 255}) {
+    const StonesPercept seen =
+        finder.find(cv::Mat(1200, 1600, CV_8UC3, cv::Scalar::all(level)), {}, board.scene.eMc, std::nullopt);
+    EXPECT_TRUE(seen.ok);
+    EXPECT_TRUE(seen.stones.empty()) << level;
+  }
+}
+
+}  // namespace
+}  // namespace hogline::vision

@@ -1,0 +1,78 @@
+#include "vision/detect/white_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hogline::vision {
+namespace {
+
+constexpr int step_px = 4;
+constexpr double percentile = 0.65;
+constexpr int reach_blocks = 2;  // paint fills at most so many blocks in a row
+constexpr float least_light = 0.004F;
+
+std::uint8_t high_level(const cv::Mat& bgr, const cv::Rect& block, int channel) {
+  std::array<int, 256> histogram{};
+  int count = 0;
+  for (int y = block.y; y < block.br().y; y += step_px) {
+    const std::uint8_t* row = bgr.ptr<std::uint8_t>(y);
+    for (int x = block.x; x < block.br().x; x += step_px, ++count) ++histogram[row[3 * x + channel]];
+  }
+  int seen = 0;
+  std::size_t level = 0;
+  while (level < 255 && (seen += histogram[level]) < percentile * count) ++level;
+  return static_cast<std::uint8_t>(level);
+}
+
+}  // namespace
+
+WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top)
+    : top_(std::clamp(top, 0, bgr.rows - 1)),
+      columns_((bgr.cols + block_px - 1) / block_px),
+      rows_((bgr.rows - top_ + block_px - 1) / block_px) {
+  std::vector<std::array<float, 3>> own(static_cast<std::size_t>(columns_ * rows_));
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      const cv::Rect block =
+          cv::Rect(c * block_px, top_ + r * block_px, block_px, block_px) & cv::Rect(0, 0, bgr.cols, bgr.rows);
+      for (int k = 0; k < 3; ++k) {
+        own[static_cast<std::size_t>(r * columns_ + c)][static_cast<std::size_t>(k)] =
+            std::max(least_light, response.linear(high_level(bgr, block, k)));
+      }
+    }
+  }
+  light_ = own;
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < columns_; ++c) {
+      auto& best = light_[static_cast<std::size_t>(r * columns_ + c)];
+      for (int y = std::max(0, r - reach_blocks); y <= std::min(rows_ - 1, r + reach_blocks); ++y) {
+        for (int x = std::max(0, c - reach_blocks); x <= std::min(columns_ - 1, c + reach_blocks); ++x) {
+          const auto& other = own[static_cast<std::size_t>(y * columns_ + x)];
+          // The whitest as a whole: channel by channel, colours of paint would mix.
+          if (other[0] + other[1] + other[2] > best[0] + best[1] + best[2]) best = other;
+        }
+      }
+    }
+  }
+}
+
+std::array<float, 3> WhiteLight::at(double x, double y) const {
+  const double u = std::clamp(x / block_px - 0.5, 0.0, columns_ - 1.0);
+  const double v = std::clamp((y - top_) / block_px - 0.5, 0.0, rows_ - 1.0);
+  const int c = std::min(static_cast<int>(u), std::max(0, columns_ - 2));
+  const int r = std::min(static_cast<int>(v), std::max(0, rows_ - 2));
+  const auto fu = static_cast<float>(u - c);
+  const auto fv = static_cast<float>(v - r);
+  const auto cell = [this](int row, int column) -> const std::array<float, 3>& {
+    return light_[static_cast<std::size_t>(std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1))];
+  };
+  std::array<float, 3> light{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float upper = cell(r, c)[k] + fu * (cell(r, c + 1)[k] - cell(r, c)[k]);
+    const float lower = cell(r + 1, c)[k] + fu * (cell(r + 1, c + 1)[k] - cell(r + 1, c)[k]);
+    light[k] = upper + fv * (lower - upper);
+  }
+  return light;
+}
+
+}  // namespace hogline::vision

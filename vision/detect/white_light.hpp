@@ -1,0 +1,31 @@
+// How bright white ice is, place by place, channel by channel: what every colour on the sheet is measured against, so
+// that lamps, shade and vignetting do not make colours of their own.
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "vision/geometry/response_curve.hpp"
+
+namespace hogline::vision {
+
+class WhiteLight {
+ public:
+  static constexpr int block_px = 64;
+
+  /// Looks at every fourth pixel from row `top` down. A high percentile of each block, which lamps' reflections do not
+  /// reach, and the best of the blocks around, for those that paint fills. Precondition: CV_8UC3, not empty.
+  WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top);
+
+  /// Linear light of white ice at a pixel: blue, green, red; never zero.
+  std::array<float, 3> at(double x, double y) const;
+
+ private:
+  int top_;
+  int columns_;
+  int rows_;
+  std::vector<std::array<float, 3>> light_;
+};
+
+}  // namespace hogline::vision

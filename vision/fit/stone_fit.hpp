@@ -1,0 +1,47 @@
+// The joint refinement of stones' places: every pixel about the outlines of handle and body is explained as a mixture
+// of the handle's colour, granite and what is behind; Gauss-Newton on all places, with the shape that all stones share
+// (the handle's thickness, the body's radius and height) found along with them.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "vision/detect/white_light.hpp"
+#include "vision/fit/stone_model.hpp"
+
+namespace hogline::vision {
+
+/// How a stone came out.
+struct FittedStone {
+  bool ok = false;
+  std::string reason;  ///< why not, when !ok
+  Eigen::Vector2d place;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the place, the shared shape's doubt included
+  Light handle = Light::Zero();                          ///< colour against white ice: blue, green, red
+  Light granite = Light::Zero();
+  double residual = 0.0;   ///< RMS of light left unexplained, against white ice
+  double explained = 0.0;  ///< share of the picture's difference from the background that the stone explains, 0..1
+  double handle_contrast = 0.0;  ///< between handle and granite, in light against white ice
+  double body_contrast = 0.0;    ///< between granite and what is behind it
+  double visible = 0.0;          ///< share of the outline that nothing nearer hides
+};
+
+struct StoneFitResult {
+  std::vector<FittedStone> stones;  ///< as many as were given, in their order
+  SharedLook look;                  ///< as refined
+};
+
+struct StoneFitOptions {
+  int iterations = 4;
+  bool fit_shape = true;
+  std::size_t pixels = 300;              ///< about so many of each stone
+  std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
+};
+
+/// `starts` within about a pixel and a half of the truth.
+StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
+                          const SheetCamera& camera, const StoneShape& shape,
+                          const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options = {});
+
+}  // namespace hogline::vision

@@ -1,0 +1,40 @@
+// A curling stone's shape, and its outlines as a camera sees them. It stands on the ice: no refraction.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "vision/geometry/sheet.hpp"
+#include "vision/geometry/sheet_camera.hpp"
+
+namespace hogline::vision {
+
+/// A round plate of the team's colour on a body of granite. The plate's upper rim is measured on site (the rig's
+/// handle_radius_m and handle_height_m); the rest is what the rules leave free, and is refined in the picture.
+struct StoneShape {
+  double handle_radius_m = 0.095;
+  double handle_height_m = 0.125;     ///< of the plate's upper rim over the ice
+  double handle_thickness_m = 0.015;  ///< from the upper rim down to where the granite begins
+  double body_radius_m = 0.1435;      ///< at most 0.1455 by the rules' girth (R2 "Curling stones")
+  double body_half_height_m = 0.057;  ///< of the ellipsoid that stands for the body; at least 0.0572 by the rules
+};
+
+/// The directions at a place on the sheet as the camera sees it.
+struct Bearing {
+  Eigen::Vector2d away;   ///< unit, on the ice, from the camera
+  Eigen::Vector2d right;  ///< unit, to the right of `away`
+  double range_m;         ///< along the ice from under the camera
+};
+
+Bearing bearing_of(const Eigen::Vector2d& place, const Eigen::Vector3d& camera);
+
+/// A point of a level circle about a stone's axis; `angle_rad` from the right, counter-clockwise: pi/2 is the far side.
+Eigen::Vector3d circle_point(const Eigen::Vector2d& place, const Bearing& bearing, double radius_m, double height_m,
+                             double angle_rad);
+
+/// A point of the body's outline as the camera sees it; `angle_rad` about the line of sight from the right: pi/2 is the
+/// outline's top, -pi/2 its foot. Precondition: the camera is outside the body.
+Eigen::Vector3d body_outline_point(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera,
+                                   double angle_rad);
+
+}  // namespace hogline::vision

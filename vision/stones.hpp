@@ -1,0 +1,52 @@
+// The stones on the sheet, from one picture of the near view and the sheet's pose in it (Yoon et al., section III.C):
+// coarse boxes around groups, votes for centres, a joint refinement, teams by colour.
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "vision/camera_setup.hpp"
+#include "vision/detect/stone_team.hpp"
+#include "vision/detect/stone_vote.hpp"
+#include "vision/fit/stone_fit.hpp"
+#include "vision/geometry/stone_shape.hpp"
+#include "vision/percepts/stones.hpp"
+
+namespace hogline::vision {
+
+struct StonesSetup {
+  CameraSetup camera;
+  StoneShape shape;
+  TeamHues teams;
+};
+
+/// What was seen on the way: for drawings and for people who ask why.
+struct StonesSketch {
+  std::vector<cv::Rect> boxes;
+  struct Candidate {
+    StoneCandidate votes;
+    FittedStone fit;
+    std::string doubt;  ///< empty: a stone; else why it is none
+  };
+  std::vector<Candidate> candidates;
+};
+
+class StoneFinder {
+ public:
+  explicit StoneFinder(const StonesSetup& setup);
+  ~StoneFinder();
+  StoneFinder(StoneFinder&&) noexcept;
+  StoneFinder& operator=(StoneFinder&&) noexcept;
+
+  /// `image` is CV_8UC3 (BGR) of the setup's size in the camera's response curve (else !ok). `eMc` is the camera's pose
+  /// in it, `sheet_width_m` the distance of the sidelines where it is known: stones beyond them are not reported.
+  StonesPercept find(const cv::Mat& image, Stamp stamp, const Pose& eMc, std::optional<double> sheet_width_m,
+                     StonesSketch* sketch = nullptr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hogline::vision
