@@ -5,8 +5,8 @@
 
 namespace hogline::vision {
 
-double granite_share(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response, const SheetCamera& camera,
-                     const StoneShape& shape, const Eigen::Vector2d& place) {
+double granite_share(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
+                     const SheetCamera& camera, const StoneShape& shape, const Eigen::Vector2d& place) {
   const Bearing bearing = bearing_of(place, camera.eMc().translation());
   const auto centre = camera.project({place.x(), place.y(), shape.handle_height_m});
   if (!centre) return 0.0;

@@ -9,8 +9,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "vision/detect/white_light.hpp"
 #include "vision/detect/stone_groups.hpp"
+#include "vision/detect/white_light.hpp"
 #include "vision/geometry/stone_shape.hpp"
 
 namespace hogline::vision {
