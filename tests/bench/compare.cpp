@@ -18,6 +18,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> scenes{HOGLINE_TEST_DATA "/near", HOGLINE_TEST_DATA "/skip"};
+  std::vector<std::string> low_scenes{HOGLINE_TEST_DATA "/low"};
   std::string write_to;
   std::vector<std::string> only;
   bool smoke = false;
@@ -49,33 +50,43 @@ std::string section(const std::string& title, const std::vector<Contestant>& con
 
 // One scene, a few frames of the turn, every method: that it runs, not how well.
 int smoke() {
-  const auto contestants = near_contestants();
-  std::vector<Footage> footage{scenes_in(HOGLINE_TEST_DATA "/skip").front(), first_frames(turning(false), 3)};
   int unseen = 0;
-  for (const Column& column : compare(contestants, footage)) {
-    const Summary s = summary_of(column);
-    std::printf("%s: %d of %d frames seen\n", column.contestant.key.c_str(), s.frames - s.lost, s.frames);
-    if (s.lost == s.frames) ++unseen;
-  }
+  const auto count = [&unseen](const std::vector<Column>& columns) {
+    for (const Column& column : columns) {
+      const Summary s = summary_of(column);
+      std::printf("%s: %d of %d frames seen\n", column.contestant.key.c_str(), s.frames - s.lost, s.frames);
+      if (s.lost == s.frames) ++unseen;
+    }
+  };
+  count(compare(near_contestants(), {scenes_in(HOGLINE_TEST_DATA "/skip").front(), first_frames(turning(false), 3)}));
+  count(compare(low_contestants(), {first_frames(running(false), 3)}));
   return unseen == 0 ? 0 : 1;
 }
 
 int run(const Options& options) {
   if (options.smoke) return smoke();
-  std::vector<Footage> scenes;
-  for (const std::string& folder : options.scenes) {
-    for (Footage& f : scenes_in(folder)) scenes.push_back(std::move(f));
-  }
+  const auto scenes_of = [](const std::vector<std::string>& folders) {
+    std::vector<Footage> scenes;
+    for (const std::string& folder : folders) {
+      for (Footage& f : scenes_in(folder)) scenes.push_back(std::move(f));
+    }
+    return scenes;
+  };
   auto contestants = near_contestants();
-  if (!options.only.empty()) {
-    std::erase_if(contestants, [&](const Contestant& c) {
+  auto low = low_contestants();
+  for (auto* all : {&contestants, &low}) {
+    if (options.only.empty()) break;
+    std::erase_if(*all, [&](const Contestant& c) {
       return std::find(options.only.begin(), options.only.end(), c.key) == options.only.end();
     });
   }
   std::string text = "Measured on " + where_and_when() + ".\n\n";
   text += section("Near view, turning", contestants, {turning(false)}, options);
   text += section("Near view, turning among people", contestants, {turning(true)}, options);
-  text += section("Near view, scenes, standing still", contestants, scenes, options);
+  text += section("Near view, scenes, standing still", contestants, scenes_of(options.scenes), options);
+  text += section("Low view, running", low, {running(false)}, options);
+  text += section("Low view, accelerating", low, {running(true)}, options);
+  text += section("Low view, scenes, standing still", low, scenes_of(options.low_scenes), options);
   std::fputs(text.c_str(), stdout);
   if (!options.write_to.empty()) put_between_markers(options.write_to, "\n" + text);
   return 0;
@@ -93,6 +104,7 @@ int main(int argc, char** argv) {
   CLI::App app{"hogline beside other methods on the same frames: time and error of each, as Markdown"};
   app.add_option("--scenes", options.scenes, "folders of scenes (NAME.jpg with NAME.json) of the near camera")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--low-scenes", options.low_scenes, "the same of the low camera")->check(CLI::ExistingDirectory);
   app.add_option("--write", options.write_to, "also put the tables between the marks of this Markdown file")
       ->check(CLI::ExistingFile);
   app.add_option("--only", options.only, "only these methods")

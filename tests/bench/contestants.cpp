@@ -2,7 +2,9 @@
 
 #include "tests/bench/hogline_methods.hpp"
 #include "tests/bench/hough_chain.hpp"
+#include "tests/bench/low_hough_chain.hpp"
 #include "tests/bench/visp_lines.hpp"
+#include "tests/bench/visp_low_lines.hpp"
 #include "tests/bench/visp_model.hpp"
 #include "vision/geometry/sheet.hpp"
 
@@ -68,6 +70,18 @@ std::vector<Contestant> near_contestants() {
        [](const Footage& f) { return make_visp_lines(camera_of(f), crossing_lines(f)); }},
       {"acquire", "**hogline acquire**", false, [](const Footage& f) { return make_near_acquire(f.setup); }},
       {"track", "**hogline track**", false, [](const Footage& f) { return make_near_track(f.setup); }},
+  };
+}
+
+// Both others are told the sheet's true width: the paper measures it with the near view.
+std::vector<Contestant> low_contestants() {
+  return {
+      {"chain", "paper's Hough transform per frame, plain OpenCV", false,
+       [](const Footage& f) { return make_low_hough_chain(camera_of(f), f.sheet_width_m); }},
+      {"lines", "ViSP vpMeLine", true,
+       [](const Footage& f) { return make_visp_low_lines(camera_of(f), f.sheet_width_m); }},
+      {"acquire", "**hogline acquire**", false, [](const Footage& f) { return make_low_acquire(f.setup); }},
+      {"track", "**hogline track**", false, [](const Footage& f) { return make_low_track(f.setup); }},
   };
 }
 

@@ -21,4 +21,7 @@ struct Contestant {
 /// For the near camera.
 std::vector<Contestant> near_contestants();
 
+/// For the low camera of a run.
+std::vector<Contestant> low_contestants();
+
 }  // namespace hogline::bench

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tests/support/run_sequence.hpp"
 #include "tests/support/turning_sequence.hpp"
 #include "tests/vision/scene.hpp"
 
@@ -61,6 +62,28 @@ Footage turning(bool people) {
   footage.shot = [sequence](int k) {
     const hogline::testing::TurningFrame frame = sequence->frame(k);
     return Shot{{frame.bgr, frame.stamp, frame.gyro_yaw_increment_rad}, frame.body, frame.eMc};
+  };
+  return footage;
+}
+
+Footage running(bool accelerating) {
+  hogline::testing::RunMove move;
+  move.last_hog_distance_m = 0.72;
+  if (accelerating) {
+    move = hogline::testing::random_run(16);
+    move.first_hog_distance_m = 2.5;
+    move.last_hog_distance_m = 0.72;
+  }
+  const auto sequence = std::make_shared<hogline::testing::RunSequence>(move);
+  Footage footage;
+  footage.name = accelerating ? "accelerating run" : "run";
+  footage.setup = sequence->setup();
+  footage.sheet_width_m = move.rink.sheet.width_m;
+  footage.frames = sequence->size();
+  footage.first_counted = 1;
+  footage.shot = [sequence](int k) {
+    const hogline::testing::RunFrame frame = sequence->frame(k);
+    return Shot{{frame.bgr, frame.stamp, 0.0}, frame.body, frame.eMc};
   };
   return footage;
 }

@@ -34,6 +34,10 @@ std::vector<Footage> scenes_in(const std::string& folder);
 /// The alignment move before the near camera: 10 degrees at up to 20 deg/s, 60 Hz; `people` walk through the view.
 Footage turning(bool people);
 
+/// A run towards the hog line as the low camera sees it, from 2.5 m to where the line leaves the picture; 60 Hz.
+/// `accelerating` and rocking harder, on another sheet.
+Footage running(bool accelerating);
+
 /// The same footage, cut short.
 Footage first_frames(Footage footage, int frames);
 

@@ -108,6 +108,7 @@ RunFrame RunSequence::frame(int k) const {
   RunFrame frame;
   renderer_.render(exposure, move_.seed * 1000 + static_cast<std::uint64_t>(k), frame.bgr);
   frame.stamp = Stamp{from_seconds(t)};
+  frame.eMc = exposure.eMc;
   frame.body = vision::planar_body(exposure.eMc, setup_.mount);
   frame.hog_distance_m = vision::rules::tee_to_hog_m - frame.body.y_m;
   return frame;

@@ -40,7 +40,8 @@ RunMove random_run(std::uint64_t seed);
 struct RunFrame {
   cv::Mat bgr;  ///< CV_8UC3
   Stamp stamp{};
-  PlanarPose body;  ///< true: the camera's place less the mount's offset
+  PlanarPose body;   ///< true: the camera's place less the mount's offset
+  vision::Pose eMc;  ///< true
   double hog_distance_m = 0.0;
 };
 
