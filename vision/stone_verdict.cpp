@@ -47,6 +47,12 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   return {};
 }
 
+// Votes are good to a pixel or two, so that ice and handle mix into what is taken for granite.
+bool is_hopeless(const FittedStone& glance) {
+  const double light = brightness(glance.granite);
+  return light < 0.5 * darkest_granite || light > 1.35 * lightest_granite;
+}
+
 void part_overlapping(std::vector<JudgedStone>& stones) {
   for (std::size_t i = 0; i < stones.size(); ++i) {
     for (std::size_t j = i + 1; j < stones.size() && stones[i].doubt.empty(); ++j) {

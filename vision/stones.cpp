@@ -22,6 +22,8 @@ constexpr double same_place_m = 0.2;
 constexpr int most_rounds = 3;    // a stone behind one behind one
 constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 
+StoneFitOptions first_glance() { return {.iterations = 0, .fit_shape = false, .pixels = 80}; }
+
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
 
 // Something nearer stands in the way, or beside it.
@@ -32,7 +34,14 @@ bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>&
   });
 }
 
-StoneFitOptions careful_look() { return {.iterations = 4, .fit_shape = false, .pixels = 250}; }
+// A stone stands there already.
+bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
+  return std::any_of(stones.begin(), stones.end(), [&place](const JudgedStone& s) {
+    return s.doubt.empty() && (s.fit.place - place).norm() < same_place_m;
+  });
+}
+
+StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
 
 }  // namespace
 
@@ -47,8 +56,9 @@ struct StoneFinder::Impl {
   StoneArea area(std::optional<double> sheet_width_m) const;
   std::vector<JudgedStone> screen(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
                                   const std::vector<StoneCandidate>& candidates) const;
-  bool look_behind_known(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-                         std::vector<JudgedStone>& stones) const;
+  std::vector<NearerStone> look_behind(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
+                                       const std::vector<NearerStone>& known, const std::vector<NearerStone>& newest,
+                                       std::vector<JudgedStone>& stones) const;
   void refine(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
               std::vector<JudgedStone>& stones) const;
   StoneSighting sighting(const JudgedStone& stone) const;
@@ -127,31 +137,45 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const W
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
     if (granite_share(image, ice, response, camera, setup.shape, c.place) < least_granite) continue;
+    if (is_taken(c.place, stones)) continue;
+    const auto glance = fit_stones(image, response, ice, camera, setup.shape, {c.place}, first_glance());
+    if (is_hopeless(glance.stones[0])) {
+      stones.push_back({c, glance.stones[0], "its colours are no stone's"});
+      continue;
+    }
     const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
     stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0], false)});
   }
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!look_behind_known(image, ice, camera, stones)) break;
+  std::vector<NearerStone> known;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
+  }
+  std::vector<NearerStone> newest = known;
+  for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
+    newest = look_behind(image, ice, camera, known, newest, stones);
+    known.insert(known.end(), newest.begin(), newest.end());
   }
   return stones;
 }
 
-// True where that made a stone of one that was none.
-bool StoneFinder::Impl::look_behind_known(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-                                          std::vector<JudgedStone>& stones) const {
-  StoneFitOptions behind = careful_look();
-  for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) behind.nearer.push_back({s.fit.place, s.fit.handle});
-  }
+// What may be hidden by the newest of the known stones is fitted again; those that turn out to be stones are returned.
+std::vector<NearerStone> StoneFinder::Impl::look_behind(const cv::Mat& image, const WhiteLight& ice,
+                                                        const SheetCamera& camera,
+                                                        const std::vector<NearerStone>& known,
+                                                        const std::vector<NearerStone>& newest,
+                                                        std::vector<JudgedStone>& stones) const {
+  StoneFitOptions options = careful_look();
+  options.nearer = known;
   const Eigen::Vector2d eye = camera.eMc().translation().head<2>();
-  bool more = false;
+  std::vector<NearerStone> found;
   for (JudgedStone& s : stones) {
-    if (s.doubt.empty() || !may_be_hidden(s.candidate.place, behind.nearer, eye)) continue;
-    s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, behind).stones[0];
+    if (s.doubt.empty() || is_taken(s.candidate.place, stones)) continue;
+    if (!may_be_hidden(s.candidate.place, newest, eye)) continue;
+    s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, options).stones[0];
     s.doubt = doubt_of(s.candidate, s.fit, true);
-    more = more || s.doubt.empty();
+    if (s.doubt.empty()) found.push_back({s.fit.place, s.fit.handle});
   }
-  return more;
+  return found;
 }
 
 // All together: stones that hide each other, and the shape they share.

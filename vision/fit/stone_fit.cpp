@@ -60,6 +60,7 @@ class JointFit {
            const StoneShape& shape, const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options)
       : options_(options) {
     look_.shape = shape;
+    look_.shape.handle_height_m -= shape.rim_rounding_m;
     prior_ = numbers_of(look_);
     for (const Eigen::Vector2d& start : starts) {
       const auto pixel = camera.project({start.x(), start.y(), shape.handle_height_m});
