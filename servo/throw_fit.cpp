@@ -77,7 +77,7 @@ LookJacobian jacobian_of(const TrackLook& look, const Slid& slid, const Paramete
   j.leftCols<7>() = slid.by_start.topRows<2>();
   j.col(throw_deviation) = j.col(4) * u[4];
   j.col(4) *= 1.0 + u[throw_deviation];
-  j.col(first_view + static_cast<int>(look.view)) << look.shared_m[0], look.shared_m[1];
+  j.col(first_view + static_cast<int>(look.view)) = look.tilt.at(slid.stone.x_m, slid.stone.y_m);
   return j;
 }
 
@@ -119,8 +119,9 @@ Normal normal_of(const ThrowTrack& track, const Parameters& u, const Prior& prio
   for (const TrackLook& look : track.looks) {
     const Slid slid = path.at(after_s(track, look));
     const double shared = u[first_view + static_cast<int>(look.view)];
-    const Eigen::Vector2d residual(slid.stone.x_m + shared * look.shared_m[0] - look.x_m,
-                                   slid.stone.y_m + shared * look.shared_m[1] - look.y_m);
+    const Eigen::Vector2d place =
+        Eigen::Vector2d(slid.stone.x_m, slid.stone.y_m) + shared * look.tilt.at(slid.stone.x_m, slid.stone.y_m);
+    const Eigen::Vector2d residual = place - Eigen::Vector2d(look.x_m, look.y_m);
     const Eigen::Matrix2d information = matrix(look.covariance).inverse();
     const double square = residual.dot(information * residual);
     const Robust r = robust(std::sqrt(square), config, reject);
@@ -180,7 +181,7 @@ std::string unusable(const ThrowTrack& track, const IceEstimate& prior, const Th
   if (static_cast<int>(track.looks.size()) < config.least_looks) return "too few looks";
   const auto finite = [](const TrackLook& l) {
     const double det = l.covariance.xx_m2 * l.covariance.yy_m2 - l.covariance.xy_m2 * l.covariance.xy_m2;
-    return std::isfinite(l.x_m) && std::isfinite(l.y_m) && std::isfinite(l.shared_m[0] + l.shared_m[1]) &&
+    return std::isfinite(l.x_m) && std::isfinite(l.y_m) && std::isfinite(l.tilt.at(l.x_m, l.y_m).sum()) &&
            std::isfinite(det) && det > 0.0 && l.covariance.xx_m2 > 0.0;
   };
   if (!std::all_of(track.looks.begin(), track.looks.end(), finite)) return "a look is not finite or has no covariance";

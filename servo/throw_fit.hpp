@@ -19,6 +19,21 @@ namespace hogline::servo {
 enum class View { far, near };
 inline constexpr int view_count = 2;
 
+/// The error that all looks of a view share: its camera is tilted a little otherwise than thought. It moves a stone
+/// along the ray by range^2 / height for each radian.
+struct SharedTilt {
+  double camera_x_m = 0.0;
+  double camera_y_m = 0.0;
+  double sigma_per_m = 0.0;  ///< one sigma of the tilt over the camera's height; 0: nothing is shared
+
+  /// Where one sigma moves a stone that is here. To be asked for the place as estimated, not as looked at: a look's own
+  /// error would go with its square into what is learnt of the tilt.
+  Eigen::Vector2d at(double x_m, double y_m) const {
+    const Eigen::Vector2d ray(x_m - camera_x_m, y_m - camera_y_m);
+    return ray * ray.norm() * sigma_per_m;
+  }
+};
+
 /// One look at the thrown stone.
 struct TrackLook {
   Stamp stamp{};
@@ -26,7 +41,7 @@ struct TrackLook {
   double y_m = 0.0;
   PlaceCovariance covariance;  ///< of this look alone
   View view = View::near;
-  std::array<double, 2> shared_m{};  ///< where one sigma of the error that all looks of the view share moves this one
+  SharedTilt tilt;
 };
 
 /// A stone's looks from its release, or from when it was first seen, up to its first collision or to rest.

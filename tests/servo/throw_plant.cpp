@@ -53,7 +53,9 @@ void ThrowPlant::collide(std::size_t a, std::size_t b) {
   const double inertia_share = 2.0 / radius_m;  // m r / I of a disc
   p.spin_radps -= t * inertia_share;
   q.spin_radps -= t * inertia_share;
-  contacts_.push_back({now_, static_cast<int>(p_faster ? a : b), static_cast<int>(p_faster ? b : a)});
+  const hw::sim::StoneTruth& struck = p_faster ? q : p;
+  contacts_.push_back({now_, static_cast<int>(p_faster ? a : b), static_cast<int>(p_faster ? b : a),
+                       std::hypot(struck.vx_mps, struck.vy_mps)});
 }
 
 bool ThrowPlant::all_rest() const {
@@ -88,7 +90,7 @@ TrackLook look_at(double x_m, double y_m, Stamp stamp, const PlantView& view, do
   look.covariance = {along * along * ux * ux + across * across * uy * uy, (along * along - across * across) * ux * uy,
                      along * along * uy * uy + across * across * ux * ux};
   look.view = view.view;
-  look.shared_m = {by_tilt * view.tilt_sigma_rad * ux, by_tilt * view.tilt_sigma_rad * uy};
+  look.tilt = {view.camera_x_m, view.camera_y_m, view.tilt_sigma_rad / view.camera_height_m};
   return look;
 }
 

@@ -28,6 +28,7 @@ struct PlantContact {
   Stamp stamp{};
   int striker = 0;  ///< the faster one
   int struck = 0;
+  double struck_mps = 0.0;  ///< its speed afterwards
 };
 
 /// Discs of 0.145 m with restitution and friction between them.
