@@ -10,8 +10,6 @@ namespace {
 constexpr double touch_m = 2.0 * stone_radius_m;
 constexpr double sigmas_that_count = 3.0;
 constexpr double slowest_meeting_mps = 0.02;
-constexpr double either_way_sigma = 0.8;
-constexpr double lasting_spin_radps = 20.0;
 
 /// The meeting seen along the relative velocity: `ahead` to the struck stone's centre, `aside` to its left.
 struct Approach {
@@ -66,12 +64,8 @@ void deflect(StoneMotion& m, const Eigen::Vector2d& to_place, const Eigen::Vecto
 /// A struck stone runs on the striker's ice and may curl either way.
 void set_off(StoneMotion& struck, const StoneMotion& striker) {
   struck.ice = striker.ice;
-  struck.ice.curl_gain = 0.0;
-  struck.stone.spin_radps = lasting_spin_radps;
   struck.covariance.block<3, 3>(4, 4) = striker.covariance.block<3, 3>(4, 4);
-  struck.covariance.row(5).setZero();
-  struck.covariance.col(5).setZero();
-  struck.covariance(5, 5) = either_way_sigma * either_way_sigma;
+  curl_either_way(struck);
 }
 
 /// The impact in which the struck stone's centre passes `aside_m` to the left, known to `sigma_m`.

@@ -16,6 +16,7 @@ constexpr double impossible_cost = 1e6;
 constexpr double gate_square = 30.0;
 constexpr double least_probability = 1e-4;
 constexpr int looks_to_rest = 4;
+constexpr std::size_t most_ends = 60;
 constexpr Duration time_to_rest = std::chrono::milliseconds(300);
 
 struct Pair {
@@ -28,6 +29,8 @@ bool is_settled(const World& world, int a, int b) {
   const std::pair<int, int> pair = std::minmax(a, b);
   return std::find(world.settled.begin(), world.settled.end(), pair) != world.settled.end();
 }
+
+bool less_probable(const Impact& a, const Impact& b) { return a.probability < b.probability; }
 
 /// The first two that may touch within the time.
 std::optional<Pair> next_meeting(const World& world, double within_s) {
@@ -91,7 +94,15 @@ void run(World world, Stamp to, const WorldConfig& config, std::vector<World>& e
     const StoneMotion striker = world.stones[pair->striker].motion, struck = world.stones[pair->struck].motion;
     world.settled.push_back(std::minmax(world.stones[pair->striker].id, world.stones[pair->struck].id));
     world.looks_since_split = 0;
-    for (const Impact& impact : impacts(striker, struck, config.impact)) {
+    // A rack of stones may part in more ways than anybody can follow: then only the likeliest of each.
+    std::vector<Impact> ways = impacts(striker, struck, config.impact);
+    const bool too_many = ends.size() >= most_ends;
+    if (too_many && pair->meeting.hit > 0.5) {
+      world = touched(world, *pair, *std::max_element(ways.begin(), ways.end(), less_probable));
+      continue;
+    }
+    if (too_many) ways.clear();
+    for (const Impact& impact : ways) {
       World branch = touched(world, *pair, impact);
       branch.log_likelihood += std::log(std::max(least_probability, pair->meeting.hit * impact.probability));
       run(std::move(branch), to, config, ends);
@@ -164,12 +175,10 @@ void see(WorldStone& stone, const StoneLook& look, const WorldConfig& config) {
 
 }  // namespace
 
-WorldStone* World::find(int id) {
+const WorldStone* World::find(int id) const {
   const auto at = std::find_if(stones.begin(), stones.end(), [&](const WorldStone& s) { return s.id == id; });
   return at == stones.end() ? nullptr : &*at;
 }
-
-const WorldStone* World::find(int id) const { return const_cast<World*>(this)->find(id); }
 
 const WorldStone* World::thrown() const {
   const auto at = std::find_if(stones.begin(), stones.end(), [](const WorldStone& s) { return s.thrown; });

@@ -82,7 +82,7 @@ struct World {
   double log_likelihood = 0.0;
   int looks_since_split = 0;  ///< pictures with a running stone in them
 
-  WorldStone* find(int id);
+  /// Nothing when there is none of this identity.
   const WorldStone* find(int id) const;
   const WorldStone* thrown() const;
 };

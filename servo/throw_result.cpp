@@ -14,7 +14,6 @@ constexpr double least_push_m = 0.03;
 constexpr double sigmas_that_count = 3.0;
 constexpr Duration rest_that_counts = std::chrono::milliseconds(700);
 constexpr Duration before_contact = std::chrono::milliseconds(20);
-constexpr double lasting_spin_radps = 20.0;
 constexpr double longest_way_back_s = 15.0;
 constexpr double least_turning_mps = 0.15;  // below it the spin's loss hangs on when exactly the stone stops
 
@@ -32,12 +31,16 @@ bool pushed(const WorldCollision& hit, const World& world) {
   return way > std::max(least_push_m, sigmas_that_count * sigma);
 }
 
+/// A struck stone may stand again at once: then it has handed on to another what it got.
 std::vector<WorldCollision> true_collisions(const World& world) {
-  std::vector<WorldCollision> hits;
-  for (const WorldCollision& hit : world.collisions) {
-    if (pushed(hit, world)) hits.push_back(hit);
+  std::vector<WorldCollision> found;
+  for (auto hit = world.collisions.rbegin(); hit != world.collisions.rend(); ++hit) {
+    const bool handed_on =
+        std::any_of(found.begin(), found.end(), [&](const auto& h) { return h.striker == hit->struck; });
+    if (pushed(*hit, world) || handed_on) found.push_back(*hit);
   }
-  return hits;
+  std::reverse(found.begin(), found.end());
+  return found;
 }
 
 bool hits(const WorldCollision& hit, int id) { return hit.striker == id || hit.struck == id; }
@@ -128,15 +131,6 @@ ThrowTrack track_of(const std::vector<StoneLook>& looks, double spin_radps) {
   return track;
 }
 
-/// A stone of which nobody knows which way it turns may curl either way.
-ThrowFit fit_either_way(ThrowTrack track, IceEstimate ice, const ThrowFitConfig& config) {
-  track.spin_radps = lasting_spin_radps;
-  ice.curl_gain = 0.0;
-  for (const std::size_t i : {1u, 3u, 5u, 7u}) ice.covariance[i] = 0.0;
-  ice.covariance[4] = 1.0;
-  return fit_throw(track, ice, config);
-}
-
 StoneRotation rotation(const std::vector<StoneLook>& looks, const ThrowFit& fit) {
   const StonePath path(fit.stone, fit.ice);
   std::vector<HandleLook> handles;
@@ -151,7 +145,9 @@ StoneRotation rotation(const std::vector<StoneLook>& looks, const ThrowFit& fit)
 void fit_way(ThrowResult& result, const std::vector<StoneLook>& looks, double spin_radps, const WorldConfig& config,
              const ThrowFitConfig& fit_config) {
   ThrowTrack track = track_of(looks, spin_radps);
-  result.fit = fit_either_way(track, config.ice, fit_config);
+  ThrowTrack either_way = track;
+  either_way.spin_radps = either_way_spin_radps;
+  result.fit = fit_throw(either_way, curling_either_way(config.ice), fit_config);
   if (!result.fit.ok) return;
   result.rotation = rotation(looks, result.fit);
   if (result.rotation.ok) track.spin_radps = result.rotation.spin_radps;

@@ -14,9 +14,7 @@ using LookRow = Eigen::Matrix<double, 2, motion_size>;
 
 constexpr double least_friction = 0.3;
 constexpr double greatest_friction = 3.0;
-// Which way a stone curls that nobody watched turn: a gain of either sign, and a spin that does not die.
 constexpr double either_way_sigma = 0.8;
-constexpr double lasting_spin_radps = 20.0;
 
 State state_of(const StoneMotion& m) {
   State u;
@@ -68,14 +66,24 @@ StoneMotion running_stone(Stamp stamp, const SlidingStone& stone, double place_s
   set_ice(m, ice, throw_friction_sigma);
   m.covariance.diagonal().head<2>().setConstant(place_sigma_m * place_sigma_m);
   m.covariance.diagonal().segment<2>(2).setConstant(velocity_sigma_mps * velocity_sigma_mps);
-  if (stone.spin_radps == 0.0) {
-    m.stone.spin_radps = lasting_spin_radps;
-    m.ice.curl_gain = 0.0;
-    m.covariance.row(5).setZero();
-    m.covariance.col(5).setZero();
-    m.covariance(5, 5) = either_way_sigma * either_way_sigma;
-  }
+  if (stone.spin_radps == 0.0) curl_either_way(m);
   return m;
+}
+
+void curl_either_way(StoneMotion& m) {
+  m.stone.spin_radps = either_way_spin_radps;
+  m.ice.curl_gain = 0.0;
+  m.covariance.row(5).setZero();
+  m.covariance.col(5).setZero();
+  m.covariance(5, 5) = either_way_sigma * either_way_sigma;
+}
+
+IceEstimate curling_either_way(const IceEstimate& ice) {
+  IceEstimate either = ice;
+  either.curl_gain = 0.0;
+  for (const std::size_t i : {1u, 3u, 5u, 7u}) either.covariance[i] = 0.0;
+  either.covariance[4] = either_way_sigma * either_way_sigma;
+  return either;
 }
 
 void advance(StoneMotion& m, Stamp to, const MotionNoise& noise) {

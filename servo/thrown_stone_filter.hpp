@@ -56,6 +56,13 @@ StoneMotion standing_stone(Stamp stamp, double x_m, double y_m, const PlaceCovar
 StoneMotion running_stone(Stamp stamp, const SlidingStone& stone, double place_sigma_m, double velocity_sigma_mps,
                           const IceEstimate& ice, double throw_friction_sigma);
 
+/// Of a stone that nobody watched turn: it may curl either way. Its curl gain gets a mean of 0 and a spread of either
+/// sign, its spin becomes one that does not die.
+void curl_either_way(StoneMotion& motion);
+/// The same for a fit by shooting; the track then takes `either_way_spin_radps`.
+IceEstimate curling_either_way(const IceEstimate& ice);
+inline constexpr double either_way_spin_radps = 20.0;
+
 /// Forward in time only: an earlier stamp changes nothing.
 void advance(StoneMotion& motion, Stamp to, const MotionNoise& noise);
 
