@@ -51,6 +51,7 @@ struct LowSequence::Impl {
 
   void clear(Stamp stamp);
   bool follow(const cv::Mat& image, Stamp stamp);
+  const SheetFitResult& follow_at_any_speed(const cv::Mat& image, Stamp stamp);
   bool take(const SheetFitResult& result, Stamp stamp);
   bool hog_line_seen(const SheetFitResult& result) const;
   bool take_blind(const SheetFitResult& result, Stamp stamp);
@@ -129,7 +130,7 @@ bool LowSequence::Impl::give_up(std::string why) {
 bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
   if (!tracking) return give_up("no frame before shows the hog line");
   if (seconds(stamp - across.last_stamp()) > longest_gap_s) return give_up("the frames before are too old");
-  const SheetFitResult& result = track.follow(image, predict_camera(stamp));
+  const SheetFitResult& result = follow_at_any_speed(image, stamp);
   diagnosis.places = track.diagnosis().places;
   diagnosis.search_px = track.diagnosis().search_px;
   diagnosis.innovation = track.diagnosis().innovation;
@@ -137,6 +138,19 @@ bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
   if (track.diagnosis().moved_px > standing_px) remember_pitch();
   ++diagnosis.frames_tracked;
   return true;
+}
+
+// A step of full speed between two frames is too long for one search as long as the speed is not known.
+const SheetFitResult& LowSequence::Impl::follow_at_any_speed(const cv::Mat& image, Stamp stamp) {
+  const SheetFitResult& result = track.follow(image, predict_camera(stamp));
+  if (result.ok || along.known()) return result;
+  for (const double speed_mps : {0.0, 3.0}) {
+    SheetPrediction other = predict_camera(stamp);
+    const double ahead_m = (speed_mps - along.speed_mps(stamp)) * seconds(stamp - along.last_stamp());
+    other.eMc.translation().y() += ahead_m;
+    if (track.follow(image, other).ok) break;
+  }
+  return result;
 }
 
 bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
