@@ -16,8 +16,8 @@ struct RunPlace {
   PlanarSigma sigma;
 };
 
-/// Weighted least squares over the last places; allocates nothing. A run's speeds and accelerations are known beforehand
-/// to be bounded, so that few places do not invent them.
+/// Weighted least squares over the last places; allocates nothing. A run's speeds and accelerations are known
+/// beforehand to be bounded, so that few places do not invent them.
 class RunMotion {
  public:
   static constexpr std::size_t most_places = 12;
