@@ -1,5 +1,5 @@
 // What can happen between the program and the gripper and arm, and in them.
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -40,30 +40,8 @@ void over_rtu(ThrowRequest& request) {
   request.rig.modbus.line.line = hw::ModbusRtu{.device = {}, .baud = 115200};
 }
 
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::modbus,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal),
-          .prepare = patient};
-}
-
 Case serial(Case c) {
   c.prepare = over_rtu;
-  return c;
-}
-
-Case short_of(Case c, const char* why) {
-  c.shortcoming = why;
-  return c;
-}
-
-Case with(Case c, Strike strike, Expect expect = Expect::stops) {
-  c.strike = strike;
-  c.expect = expect;
   return c;
 }
 
@@ -164,6 +142,9 @@ std::vector<Case> modbus_faults() {
   std::vector<Case> all = line_faults();
   const std::vector<Case> rest = device_faults();
   all.insert(all.end(), rest.begin(), rest.end());
+  for (Case& row : all) {
+    if (!row.prepare) row.prepare = patient;
+  }
   return all;
 }
 
