@@ -29,16 +29,7 @@ Action device(Change change) {
   return [change](Site& s) { s.rink().modbus().inject(change); };
 }
 
-// The stepped clock stands still while an exchange waits for an answer that does not come: few attempts, short tests.
-void patient(ThrowRequest& request) {
-  request.rig.modbus.reconnect_delay = 1s;
-  request.rig.modbus.line.response_timeout = 3s;
-}
-
-void over_rtu(ThrowRequest& request) {
-  patient(request);
-  request.rig.modbus.line.line = hw::ModbusRtu{.device = {}, .baud = 115200};
-}
+void over_rtu(ThrowRequest& request) { request.rig.modbus.line.line = hw::ModbusRtu{.device = {}, .baud = 115200}; }
 
 Case serial(Case c) {
   c.prepare = over_rtu;
@@ -52,10 +43,7 @@ std::vector<Case> line_faults() {
                         tampers([](ModbusBytes& a) { a[6] ^= 0x40; }), well);
   forgiven.expect = Expect::goes_on;
   forgiven.lasts = 5ms;
-  forgiven.prepare = [](ThrowRequest& request) {
-    patient(request);
-    request.rig.modbus.reconnect_delay = 20ms;
-  };
+  forgiven.prepare = [](ThrowRequest& request) { request.rig.modbus.reconnect_delay = 20ms; };
   return {
       stops("server dies", "connections reset, port closed", silence, "jaws: disconnected", dies, lives),
       with(stops("server dies", "the same, while the robot measures", silence, "jaws: disconnected", dies, lives),
@@ -142,9 +130,6 @@ std::vector<Case> modbus_faults() {
   std::vector<Case> all = line_faults();
   const std::vector<Case> rest = device_faults();
   all.insert(all.end(), rest.begin(), rest.end());
-  for (Case& row : all) {
-    if (!row.prepare) row.prepare = patient;
-  }
   return all;
 }
 
