@@ -39,7 +39,6 @@ ThrowRequest plain_request() {
 
 ThrowRequest request_of(const Case& fault) {
   ThrowRequest request = plain_request();
-  request.rig.modbus.line.response_timeout = 20s;  // of the wall: a busy machine is no fault of this table
   if (fault.prepare) fault.prepare(request);
   request.rig = with_small_pictures(std::move(request.rig));
   return request;

@@ -11,6 +11,7 @@
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
 #include "src/throwing/rink_gyro_line.hpp"
+#include "src/throwing/rink_modbus_line.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
@@ -35,6 +36,7 @@ class SimulatedRobot {
   hw::sim::Scenario scenario_;
   hw::sim::Rink rink_;
   hw::TwoWheelDrive drive_;
+  RinkModbusLine modbus_line_;
   hw::ModbusSession session_;
   hw::ModbusGripper gripper_;
   hw::ModbusArm arm_;
