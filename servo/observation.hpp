@@ -39,6 +39,12 @@ struct ArmObservation {
   bool unfolded = false;
 };
 
+/// The operator's dead-man's switch.
+struct OperatorObservation {
+  Stamp stamp{};      ///< when its state was read
+  bool held = false;  ///< pressed: motion is wanted
+};
+
 /// All of it. An empty optional means that nothing has arrived yet; what has arrived carries its stamp, and the
 /// controller judges its age against `now`. `near_view` and `low_view` hold the newest percept, also when not ok.
 struct ThrowerObservation {
@@ -49,7 +55,9 @@ struct ThrowerObservation {
   std::optional<ArmObservation> arm;
   std::optional<SheetPosePercept> near_view;
   std::optional<SheetPosePercept> low_view;
-  std::optional<std::string> device_error;  ///< a latched error of any device, in words; stops the robot
+  std::optional<OperatorObservation> operator_switch;  ///< only the supervisor looks at it
+  std::optional<std::string> device_error;             ///< a latched error of any device, in words; stops the robot
+  std::optional<std::string> safety_stop;              ///< why the supervisor lets nothing pass; stops the controller
 };
 
 }  // namespace hogline::servo

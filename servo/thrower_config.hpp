@@ -85,10 +85,21 @@ struct RunConfig {
   double spin_tolerance_radps = 0.0;
 };
 
+/// The supervisor's bounds. They are bounds, not standard deviations: beyond them something is wrong.
 struct SafetyConfig {
   double max_yaw_rate_disagreement_radps = 0.0;  ///< between gyro and wheels
   Duration disagreement_time{};                  ///< how long it may last
   double reaction_s = 0.0;                       ///< from the decision to brake to full braking
+  double speed_margin = 0.0;        ///< share of a limit by which a measured or ordered speed may exceed it
+  double odometry_bound = 0.0;      ///< share by which the wheels' distance can be wrong while they roll
+  double look_sigmas = 0.0;         ///< a look at the hog line is off by no more than so many of its sigmas
+  double look_margin_m = 0.0;       ///< ... and this
+  double slip_allowance_m = 0.0;    ///< by so much the wheels may have slipped between two looks
+  double max_travel_m = 0.0;        ///< of the wheels, forward, from arming to the release
+  double max_overrun_m = 0.0;       ///< of the body's origin beyond the hog line
+  double max_tilt_rad = 0.0;        ///< of the body against the ice, as the cameras see it
+  Duration operator_age{};          ///< of the dead-man's switch's state
+  std::array<double, 9> low_cRb{};  ///< low camera's rotation: b-directions to camera directions
 };
 
 /// How long a state may last. A state that lasts longer aborts the throw.

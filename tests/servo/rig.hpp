@@ -55,7 +55,19 @@ inline ThrowerConfig thrower_config() {
            .heading_tolerance_rad = 0.6 * degree,
            .lateral_tolerance_m = 0.1,
            .spin_tolerance_radps = 0.3};
-  c.safety = {.max_yaw_rate_disagreement_radps = 0.2, .disagreement_time = 150ms, .reaction_s = 0.06};
+  c.safety = {.max_yaw_rate_disagreement_radps = 0.2,
+              .disagreement_time = 150ms,
+              .reaction_s = 0.06,
+              .speed_margin = 0.1,
+              .odometry_bound = 0.03,
+              .look_sigmas = 4.0,
+              .look_margin_m = 0.02,
+              .slip_allowance_m = 0.15,
+              .max_travel_m = 14.0,
+              .max_overrun_m = 5.0,
+              .max_tilt_rad = 3.0 * degree,
+              .operator_age = 300ms,
+              .low_cRb = camera_rotation(20.0 * degree, 0.0)};
   c.deadlines = {.unfold = 6s, .measure = 5s, .align = 8s, .fold = 6s, .run = 10s, .release = 300ms, .brake = 5s};
   return c;
 }

@@ -1,4 +1,4 @@
-#include "servo/safety.hpp"
+#include "servo/safety/input_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "servo/refusal.hpp"
+#include "servo/safety/latch.hpp"
+#include "servo/safety/turn_agreement.hpp"
 #include "tests/servo/rig.hpp"
 
 namespace hogline::servo::test {
