@@ -31,6 +31,7 @@ struct GripperObservation {
   bool open = false;        ///< the jaws are, or have begun to be, open
   double spin_radps = 0.0;  ///< of the held stone, counter-clockwise from above positive
   std::optional<Stamp> opening_since;
+  std::optional<Stamp> freed_at;  ///< when the jaws had travelled as far as frees the stone, by their own report
 };
 
 struct ArmObservation {

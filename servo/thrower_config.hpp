@@ -28,6 +28,10 @@ struct ReleaseConfig {
   double tolerance_m = 0.0;      ///< outside release plane +- tolerance the stone is kept
   double stone_x_m = 0.0;        ///< the held stone's centre in b, ahead of the origin
   double gripper_delay_s = 0.0;  ///< from the command to the stone being free
+  double gripper_delay_sigma_s = 0.0;
+  double drag_mps = 0.0;  ///< by so much the stone is slower than the body that let it go
+  double drag_sigma_mps = 0.0;
+  double rest_hog_distance_m = 0.0;  ///< where the body's origin shall come to rest; negative: beyond the line
 };
 
 /// How old an input may be before the robot stops.
@@ -71,6 +75,7 @@ struct OdometryConfig {
   double scale_sigma = 0.0;             ///< of true over measured distance, before it is learnt
   double scale_drift_per_sqrt_m = 0.0;  ///< wear, slip that changes with the acceleration
   double noise_m_per_sqrt_m = 0.0;      ///< random walk of the travelled distance
+  double speed_delay_s = 0.0;           ///< the wheels' speeds are those of so long before their stamp
 };
 
 /// The run to the release plane, and when a release is still worth it.

@@ -50,6 +50,8 @@ struct Thrower::Impl {
   DriveCommand drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt);
   DriveCommand velocity(const PlanarTwist& twist) const;
   double spin_radps() const;
+  double run_speed_mps() const { return order.speed_mps + config.release.drag_mps; }
+  bool stone_is_free(const ThrowerObservation& observation);
 
   ThrowerConfig config;
   ShotOrder order;

@@ -13,6 +13,7 @@ constexpr double resting_mps = 0.01;
 constexpr double resting_radps = 0.02;
 constexpr double moving_mps = 0.05;
 constexpr int contradicting_looks = 10;
+constexpr double delay_sigmas = 2.0;     // of the gripper's delay: its jitter and what is not yet learnt
 constexpr double unseen_travel_m = 0.3;  // no robot carries a stone further without ever having seen the line
 constexpr double rotation_error = 1e-6;
 
@@ -213,18 +214,22 @@ std::optional<std::string> Supervisor::bad_place(Duration dt) const {
 std::optional<std::string> Supervisor::no_release(const ThrowerObservation& o) const {
   const std::string refused = "release refused: ";
   if (!o.wheels || !o.gripper || !o.gripper->holding) return refused + "no stone is held";
-  const double ahead_s = config_.release.gripper_delay_s + std::max(0.0, seconds(o.now - o.wheels->stamp));
-  const auto freed = place_.ahead(ahead_s, config_.limits.max_acceleration_mps2);
-  if (!freed || place_.in_doubt()) return refused + "the place is not known";
+  const double seen_s = std::max(0.0, seconds(o.now - o.wheels->stamp));
+  const double delay_s = config_.release.gripper_delay_s;
+  const double unsure_s = delay_sigmas * config_.release.gripper_delay_sigma_s;
+  const auto first = place_.ahead(seen_s + std::max(0.0, delay_s - unsure_s), config_.limits.max_acceleration_mps2);
+  const auto last = place_.ahead(seen_s + delay_s + unsure_s, config_.limits.max_acceleration_mps2);
+  if (!first || !last || place_.in_doubt()) return refused + "the place is not known";
+  const HogBounds freed{last->nearest_m, first->farthest_m};
   const double plane_m = config_.release.hog_distance_m;
   const double tolerance_m = config_.release.tolerance_m;
-  if (!(freed->nearest_m >= plane_m - tolerance_m)) {
-    return refused + beyond("may be late by", plane_m - freed->nearest_m, tolerance_m);
+  if (!(freed.nearest_m >= plane_m - tolerance_m)) {
+    return refused + beyond("may be late by", plane_m - freed.nearest_m, tolerance_m);
   }
-  if (!(freed->farthest_m <= plane_m + tolerance_m)) {
-    return refused + beyond("may be early by", freed->farthest_m - plane_m, tolerance_m);
+  if (!(freed.farthest_m <= plane_m + tolerance_m)) {
+    return refused + beyond("may be early by", freed.farthest_m - plane_m, tolerance_m);
   }
-  const double stone_m = freed->nearest_m - config_.release.stone_x_m;
+  const double stone_m = freed.nearest_m - config_.release.stone_x_m;
   if (!(stone_m >= stone_to_hog_line_m)) {
     return refused + beyond("the stone may be too near to the hog line:", stone_m, stone_to_hog_line_m);
   }

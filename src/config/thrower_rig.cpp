@@ -105,7 +105,11 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   c.release = {.hog_distance_m = release.number("hog_distance_m"),
                .tolerance_m = release.number("tolerance_m"),
                .stone_x_m = release.number("stone_x_m"),
-               .gripper_delay_s = release.number("gripper_delay_s")};
+               .gripper_delay_s = release.number("gripper_delay_s"),
+               .gripper_delay_sigma_s = release.number("gripper_delay_sigma_s"),
+               .drag_mps = release.number("drag_mps"),
+               .drag_sigma_mps = release.number("drag_sigma_mps"),
+               .rest_hog_distance_m = release.number("rest_hog_distance_m")};
   c.ages = read_ages(root.section("ages"));
   c.measure = {.frames = t.section("measure").integer("frames"), .rest = t.section("measure").duration("rest_s")};
   c.alignment = read_alignment(t.section("alignment"), near_mount);
@@ -118,7 +122,8 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   const Section odometry = t.section("odometry");
   c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
                 .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),
-                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m")};
+                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m"),
+                .speed_delay_s = odometry.number("speed_delay_s")};
   c.run = read_run(t.section("run"));
   c.safety = read_safety(t.section("safety"), low_mount);
   c.deadlines = read_deadlines(t.section("deadlines"));
@@ -160,7 +165,8 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
             .activation_deadline = s.duration("activation_deadline_s"),
             .silence_limit = s.duration("silence_limit_s"),
             .close_speed = static_cast<std::uint8_t>(s.integer("close_speed")),
-            .close_force = static_cast<std::uint8_t>(s.integer("close_force"))};
+            .close_force = static_cast<std::uint8_t>(s.integer("close_force")),
+            .freeing_travel = s.integer("freeing_travel")};
   g.belt = read_axis(s.section("belt"));
   g.max_spin_radps = s.number("max_spin_radps");
   return g;

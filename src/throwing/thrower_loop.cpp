@@ -52,6 +52,7 @@ std::optional<servo::GripperObservation> observe_gripper(const hw::GripperState&
       .open = gripper.jaws == hw::JawState::open || gripper.opening_since.has_value(),
       .spin_radps = gripper.spin_radps,
       .opening_since = gripper.opening_since,
+      .freed_at = gripper.freed_at,
   };
 }
 

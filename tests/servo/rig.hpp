@@ -29,7 +29,14 @@ inline ThrowerConfig thrower_config() {
               .max_deceleration_mps2 = 2.0,
               .max_yaw_rate_radps = 0.35,
               .max_yaw_acceleration_radps2 = 1.0};
-  c.release = {.hog_distance_m = 1.0, .tolerance_m = 0.1, .stone_x_m = 0.45, .gripper_delay_s = 0.075};
+  c.release = {.hog_distance_m = 1.0,
+               .tolerance_m = 0.1,
+               .stone_x_m = 0.45,
+               .gripper_delay_s = 0.075,
+               .gripper_delay_sigma_s = 0.003,
+               .drag_mps = 0.0,
+               .drag_sigma_mps = 0.002,
+               .rest_hog_distance_m = -0.5};
   c.ages = {.wheels = 20ms, .gyro = 30ms, .gripper = 150ms, .arm = 300ms, .near_view = 120ms, .low_view = 120ms};
   c.measure = {.frames = 15, .rest = 1s};
   c.alignment = {.near_cRb = camera_rotation(28.0 * degree, 0.0),

@@ -34,7 +34,7 @@ ThrowerObservation good() {
   o.now = now;
   o.wheels = WheelObservation{now, 1.0, 1.0, false, true};
   o.gyro = GyroObservation{now, 0.01, true};
-  o.gripper = GripperObservation{now, true, false, 0.0, {}};
+  o.gripper = GripperObservation{now, true, false, 0.0, {}, {}};
   o.arm = ArmObservation{now, true, false};
   o.near_view = seen();
   o.low_view = seen();

@@ -59,7 +59,7 @@ struct LineRobot {
     const WheelPair wheels = wheels_of({speed_mps * (1.0 + wheel_error), 0.0}, config.base);
     o.wheels = WheelObservation{now, wheels.left_radps, wheels.right_radps, true, true};
     o.gyro = GyroObservation{now, 0.0, true};
-    o.gripper = GripperObservation{now, held, !held, 1.5, {}};
+    o.gripper = GripperObservation{now, held, !held, 1.5, {}, {}};
     o.arm = ArmObservation{now, true, false};
     o.low_view = low;
     o.operator_switch = OperatorObservation{now, true};

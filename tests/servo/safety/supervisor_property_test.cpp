@@ -55,7 +55,7 @@ ThrowerObservation any_observation(Stamp now) {
   o.now = any_stamp(now);
   o.wheels = maybe(WheelObservation{any_stamp(now), any_number(), any_number(), coin(), coin()});
   o.gyro = maybe(GyroObservation{any_stamp(now), any_number(), coin()});
-  o.gripper = maybe(GripperObservation{any_stamp(now), coin(), coin(), any_number(), {}});
+  o.gripper = maybe(GripperObservation{any_stamp(now), coin(), coin(), any_number(), {}, {}});
   o.arm = maybe(ArmObservation{any_stamp(now), coin(), coin()});
   o.near_view = maybe(any_view(now));
   o.low_view = maybe(any_view(now));
