@@ -1,9 +1,9 @@
 #include "src/config/scenario.hpp"
 
 #include <cmath>
-#include <random>
+#include <utility>
 
-#include "src/config/schema.hpp"
+#include "src/config/scenario_ranges.hpp"
 #include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
 
@@ -105,43 +105,23 @@ CameraScenario read_camera(const Section& s) {
           .pitch_error_rad = s.radians("pitch_error_deg")};
 }
 
-// std::uniform_real_distribution differs between libraries; 53 bits of the engine do not.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : engine_(seed) {}
-  double within(double half_range) {
-    const double unit = static_cast<double>(engine_() >> 11U) * 0x1.0p-53;
-    return half_range * (2.0 * unit - 1.0);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-void vary(Scenario& scenario, const Section& v) {
-  Draw draw(scenario.seed);
-  scenario.robot.start_x_m += draw.within(v.number("start_x_m"));
-  scenario.robot.start_y_m += draw.within(v.number("start_y_m"));
-  scenario.robot.start_yaw_rad += draw.within(v.radians("start_yaw_deg"));
-  scenario.robot.left_radius_error += draw.within(v.number("radius_error"));
-  scenario.robot.right_radius_error += draw.within(v.number("radius_error"));
-  scenario.near_camera.pitch_error_rad += draw.within(v.radians("pitch_error_deg"));
-  scenario.low_camera.pitch_error_rad += draw.within(v.radians("pitch_error_deg"));
-  scenario.gyro.bias_radps += draw.within(v.radians("gyro_bias_deg_per_h") / 3600.0);
-  scenario.stone.friction_scale += draw.within(v.number("friction_scale"));
-  scenario.stone.curl_gain += draw.within(v.number("curl_gain"));
-}
-
 }  // namespace
 
-Scenario load_scenario(const std::string& path, std::uint64_t seed) {
-  return parse_scenario(read_file(path), path, seed);
+struct ScenarioFile::Content {
+  json root;
+  ScenarioRanges ranges;
+};
+
+ScenarioFile::ScenarioFile(std::string_view text, const std::string& name) {
+  Document document{.file = name, .lines = {}};
+  json root = read_yaml(text, document);
+  ScenarioRanges ranges(root, document);
+  content_ = std::make_shared<const Content>(Content{std::move(root), std::move(ranges)});
 }
 
-Scenario parse_scenario(std::string_view text, const std::string& name, std::uint64_t seed) {
-  Document document{.file = name, .lines = {}};
-  const json root = read_yaml(text, document);
-  check(root, "scenario.schema.json", document);
+Scenario ScenarioFile::draw(std::uint64_t seed) const {
+  json root = content_->root;
+  content_->ranges.draw(root, seed);
   const Section s(root);
 
   Scenario scenario;
@@ -163,8 +143,15 @@ Scenario parse_scenario(std::string_view text, const std::string& name, std::uin
   scenario.gyro = read_gyro(s.section("gyro"));
   scenario.near_camera = read_camera(s.section("near_camera"));
   scenario.low_camera = read_camera(s.section("low_camera"));
-  vary(scenario, s.section("variation"));
   return scenario;
+}
+
+Scenario load_scenario(const std::string& path, std::uint64_t seed) {
+  return parse_scenario(read_file(path), path, seed);
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name, std::uint64_t seed) {
+  return ScenarioFile(text, name).draw(seed);
 }
 
 }  // namespace hogline::config
