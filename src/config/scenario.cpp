@@ -42,11 +42,15 @@ SheetScenario read_sheet(const Section& s) {
 RobotScenario read_robot(const Section& s) {
   RobotScenario r;
   r.mass_kg = s.number("mass_kg");
+  r.mass_x_m = s.number("mass_x_m");
+  r.mass_z_m = s.number("mass_z_m");
+  r.runner_x_m = s.number("runner_x_m");
   r.yaw_inertia_kgm2 = s.number("yaw_inertia_kgm2");
   r.left_radius_error = s.number("left_radius_error");
   r.right_radius_error = s.number("right_radius_error");
   r.track_error = s.number("track_error");
   r.friction_coefficient = s.number("friction_coefficient");
+  r.creep = s.number("creep");
   r.rolling_resistance = s.number("rolling_resistance");
   r.steering_bias_rad_per_m = s.radians("steering_bias_deg_per_m");
   r.yaw_disturbance_radps = s.number("yaw_disturbance_radps");
@@ -73,6 +77,11 @@ StoneScenario read_stone(const Section& s) {
   stone.curl_gain = s.number("curl_gain");
   stone.lateral_acceleration_mps2 = s.number("lateral_acceleration_mps2");
   stone.spin_decay_scale = s.number("spin_decay_scale");
+  stone.throw_friction_sigma = s.number("throw_friction_sigma");
+  stone.lane_friction = s.number("lane_friction");
+  stone.restitution = s.number("restitution");
+  stone.stone_friction = s.number("stone_friction");
+  for (const auto& place : s.raw("others")) stone.others.push_back({place[0], place[1]});
   return stone;
 }
 
@@ -128,7 +137,11 @@ Scenario ScenarioFile::draw(std::uint64_t seed) const {
   scenario.seed = seed;
   scenario.sheet = read_sheet(s.section("sheet"));
   scenario.light = {.level = s.section("light").number("level"),
-                    .falloff_per_m = s.section("light").number("falloff_per_m")};
+                    .falloff_per_m = s.section("light").number("falloff_per_m"),
+                    .lamp_gloss = s.section("light").number("lamp_gloss")};
+  scenario.people = {.count = s.section("people").integer("count"),
+                     .nearest_x_m = s.section("people").number("nearest_x_m"),
+                     .walk_mps = s.section("people").number("walk_mps")};
   scenario.robot = read_robot(s.section("robot"));
   scenario.drive = {.bandwidth_hz = s.section("drive").number("bandwidth_hz"),
                     .dead_time_s = s.section("drive").number("dead_time_s")};

@@ -70,6 +70,7 @@ TEST(ScenarioRanges, what_can_not_be_drawn_is_refused_with_its_key) {
         Wrong{"wrong way round", "ranges: {robot: {mass_kg: [120, 80]}}", "ranges.robot.mass_kg", "own value, 100"},
         Wrong{"nominal outside", "ranges: {robot: {mass_kg: [101, 120]}}", "ranges.robot.mass_kg", "own value, 100"},
         Wrong{"beyond the schema", "ranges: {robot: {mass_kg: [90, 900]}}", "ranges.robot.mass_kg", "10 to 500"},
+        Wrong{"range of whole numbers", "ranges: {people: {count: [0, 4]}}", "ranges.people.count", "whole number"},
         Wrong{"range of a word", "ranges: {sheet: {sideline: [line, rope]}}", "ranges.sheet.sideline", "choices"},
         Wrong{"wrong choice", "choices: {sheet: {sideline: [line, wall]}}", "choices.sheet.sideline", "bumper"},
         Wrong{"empty choice", "choices: {sheet: {sideline: []}}", "choices.sheet.sideline", "list"},
@@ -106,6 +107,17 @@ TEST(ScenarioRanges, draws_fill_the_range_and_choices_all_come) {
   for (const auto kind : {hw::sim::SidelineKind::line, hw::sim::SidelineKind::rope, hw::sim::SidelineKind::none}) {
     EXPECT_GT(kinds[static_cast<std::size_t>(kind)], 60);
   }
+}
+
+TEST(Scenario, every_one_that_comes_with_the_program_is_read) {
+  int scenarios = 0;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.starts_with("scenarios/")) continue;
+    ++scenarios;
+    const ScenarioFile scenario(file.content, std::string(file.name));
+    for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_GT(scenario.draw(seed).robot.mass_kg, 0.0);
+  }
+  EXPECT_GE(scenarios, 2);
 }
 
 TEST(ScenarioRanges, another_range_changes_no_other_draw) {
