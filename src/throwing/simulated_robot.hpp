@@ -18,8 +18,9 @@ namespace hogline {
 
 class SimulatedRobot {
  public:
-  /// The scenario's wheel radius, track and stone place are taken from the rig.
-  SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario);
+  /// The scenario's wheel radius, track and stone place are taken from the rig. Pictures do not depend on the threads
+  /// that render them.
+  SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario, int render_threads = 2);
   SimulatedRobot(const SimulatedRobot&) = delete;
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 

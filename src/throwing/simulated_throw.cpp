@@ -74,7 +74,7 @@ void boot(SimulatedRobot& robot, Duration period) {
 }
 
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) {
-  SimulatedRobot robot(rig_of(request), request.scenario);
+  SimulatedRobot robot(rig_of(request), request.scenario, request.render_threads);
   const Duration period = request.rig.drive.timing.control_period;
   boot(robot, period);
 
