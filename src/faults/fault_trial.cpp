@@ -39,7 +39,6 @@ ThrowRequest plain_request() {
 
 ThrowRequest request_of(const Case& fault) {
   ThrowRequest request = plain_request();
-  request.rig.modbus.line.response_timeout = 20s;  // of the wall: a busy machine is no fault of this table
   if (fault.prepare) fault.prepare(request);
   request.rig = with_small_pictures(std::move(request.rig));
   return request;
@@ -144,7 +143,8 @@ void Trial::power_on() {
     detected_ = error->since;
   }
   loop_.emplace(robot_.devices(), ThrowerEyes(seer_, request_.rig.looks),
-                servo::Thrower(request_.rig.thrower, request_.order, now()));
+                servo::Thrower(request_.rig.thrower, request_.order, now()), servo::Supervisor(request_.rig.thrower));
+  loop_->arm(now());
   judge_.emplace(request_.rig.thrower, robot_.scenario(), request_.order, now());
 }
 

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "hw/canopen/bus_identifiers.hpp"
-#include "tests/hil/drive_program.hpp"
+#include "tests/hil/drive_config.hpp"
 
 namespace hogline::hil {
 

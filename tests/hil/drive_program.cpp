@@ -1,6 +1,6 @@
 // A program that drives both wheels of the foreign nodes for ever, and is killed by a test: drive_program INTERFACE.
 // It says "driving" on stdout when they turn; it ends with 1 if the drive has an error.
-#include "tests/hil/drive_program.hpp"
+#include "tests/hil/drive_config.hpp"
 
 #include <poll.h>
 
