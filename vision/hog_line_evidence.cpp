@@ -162,7 +162,8 @@ void weigh_ring(const LineCutter& cutter, const Light& ice, LineStretch& ring) {
 // The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
 // between the ice around it and the white ring inside it, wherever one looks. Far off, where a ring is some rows high,
 // it is looked for some rows higher and lower. Logos lie to the left, to the right or before us: rings on all sides.
-bool house_beyond(const LineCutter& cutter) {
+// Who stands before it hides a part.
+bool house_beyond(const LineCutter& cutter, const Light& known_ice) {
   const Eigen::Vector2d tee(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
   constexpr std::array<double, 3> radii{rules::outer_ring_radius_m + 0.25,
                                         0.5 * (rules::outer_ring_radius_m + rules::middle_ring_radius_m),
@@ -171,7 +172,7 @@ bool house_beyond(const LineCutter& cutter) {
   constexpr int rows = 7;  // higher and lower
   constexpr std::size_t sectors = 3;
   constexpr double most_ring = 0.5;
-  constexpr double most_ring_of_a_sector = 0.25;
+  constexpr double most_ring_of_a_sector = 0.34;
   std::array<std::array<std::optional<Eigen::Vector2d>, 3>, directions> pixels;
   for (int k = 0; k < directions; ++k) {
     const double angle = -std::numbers::pi * (k + 0.75) / directions;  // none along the centre line
@@ -191,15 +192,15 @@ bool house_beyond(const LineCutter& cutter) {
       const auto ice = look(ice_at);
       const auto ring = look(ring_at);
       const auto white = look(white_at);
-      if (!ice || !ring || !white) continue;
+      if (!ice || !ring || !white || !like_ice(*ice, known_ice) || !like_ice(*white, known_ice)) continue;
       const std::size_t sector = k * sectors / pixels.size();
       ++looked[sector];
       const float darker = -(*ring - *ice).minCoeff();
       if (darker > 0.08F * ice->norm() && -(*ring - *white).minCoeff() > 0.5F * darker) ++rings[sector];
     }
     const int all = looked[0] + looked[1] + looked[2];
-    const auto ringed = [&](std::size_t k) { return rings[k] > most_ring_of_a_sector * looked[k]; };
-    if (all >= 8 && rings[0] + rings[1] + rings[2] > most_ring * all && ringed(0) && ringed(1) && ringed(2))
+    const auto ringed = [&](std::size_t k) { return looked[k] < 2 || rings[k] > most_ring_of_a_sector * looked[k]; };
+    if (all >= 5 && rings[0] + rings[1] + rings[2] > most_ring * all && ringed(0) && ringed(1) && ringed(2))
       return true;
   }
   return false;
@@ -215,8 +216,8 @@ HogLineEvidence weigh_hog_line(const Picture& picture, const ResponseCurve& resp
   if (const auto ice = ice_beside(cutter)) {
     evidence.ice_beyond = share_of_ice_beyond(cutter, *ice);
     weigh_ring(cutter, *ice, evidence.ring);
+    evidence.house_beyond = house_beyond(cutter, *ice);
   }
-  evidence.house_beyond = house_beyond(cutter);
   return evidence;
 }
 
