@@ -189,6 +189,7 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
 
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
+  if (std::string why = doubt_of_response(result); !why.empty()) return why;
   if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return why;
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
   const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;
