@@ -159,6 +159,41 @@ void weigh_ring(const LineCutter& cutter, const Light& ice, LineStretch& ring) {
   }
 }
 
+// What lies where a ring should be, less the ice on either side of it; nothing where something hides that.
+using Look = std::optional<Light>;
+
+// Paint of one colour, all round. Noise, mirror images and logos are of many colours, or lie on one side only.
+template <std::size_t directions>
+bool is_a_ring(const std::array<Look, directions>& looks, float ice) {
+  constexpr std::size_t sectors = 3;
+  constexpr float least_contrast = 0.15F;  // of the ice's light
+  constexpr float most_lighter = 0.1F;
+  constexpr int fewest = 5;
+  constexpr double least_share = 0.5;
+  constexpr double least_share_of_a_sector = 0.34;
+  Light paint = Light::Zero();
+  int all = 0;
+  for (const Look& look : looks) {
+    if (!look) continue;
+    paint += *look;
+    ++all;
+  }
+  if (all < fewest) return false;
+  paint /= static_cast<float>(all);
+  if (paint.norm() < least_contrast * ice || paint.maxCoeff() > most_lighter * ice) return false;
+  std::array<int, sectors> seen{};
+  std::array<int, sectors> alike{};
+  for (std::size_t k = 0; k < directions; ++k) {
+    if (!looks[k]) continue;
+    ++seen[k * sectors / directions];
+    if (looks[k]->dot(paint) > 0.5F * std::max(paint.squaredNorm(), paint.norm() * looks[k]->norm())) {
+      ++alike[k * sectors / directions];
+    }
+  }
+  const auto all_round = [&](std::size_t k) { return seen[k] < 2 || alike[k] > least_share_of_a_sector * seen[k]; };
+  return alike[0] + alike[1] + alike[2] > least_share * all && all_round(0) && all_round(1) && all_round(2);
+}
+
 // The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
 // between the ice around it and the white ring inside it, wherever one looks. Far off, where a ring is some rows high,
 // it is looked for some rows higher and lower. Logos lie to the left, to the right or before us: rings on all sides.
@@ -168,22 +203,19 @@ bool house_beyond(const LineCutter& cutter, const Light& known_ice) {
   constexpr std::array<double, 3> radii{rules::outer_ring_radius_m + 0.25,
                                         0.5 * (rules::outer_ring_radius_m + rules::middle_ring_radius_m),
                                         0.5 * (rules::middle_ring_radius_m + rules::inner_ring_radius_m)};
-  constexpr int directions = 15;
+  constexpr std::size_t directions = 15;
   constexpr int rows = 7;  // higher and lower
-  constexpr std::size_t sectors = 3;
-  constexpr double most_ring = 0.5;
-  constexpr double most_ring_of_a_sector = 0.34;
   std::array<std::array<std::optional<Eigen::Vector2d>, 3>, directions> pixels;
-  for (int k = 0; k < directions; ++k) {
-    const double angle = -std::numbers::pi * (k + 0.75) / directions;  // none along the centre line
+  for (std::size_t k = 0; k < directions; ++k) {
+    const double angle =
+        -std::numbers::pi * (static_cast<double>(k) + 0.75) / directions;  // none along the centre line
     const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
     for (std::size_t i = 0; i < radii.size(); ++i) {
-      pixels[static_cast<std::size_t>(k)][i] = cutter.camera().project_paint(tee + radii[i] * out);
+      pixels[k][i] = cutter.camera().project_paint(tee + radii[i] * out);
     }
   }
   for (int row = -rows; row <= rows; ++row) {
-    std::array<int, sectors> looked{};
-    std::array<int, sectors> rings{};
+    std::array<Look, directions> looks;
     for (std::size_t k = 0; k < pixels.size(); ++k) {
       const auto& [ice_at, ring_at, white_at] = pixels[k];
       const auto look = [&](const std::optional<Eigen::Vector2d>& pixel) {
@@ -193,15 +225,9 @@ bool house_beyond(const LineCutter& cutter, const Light& known_ice) {
       const auto ring = look(ring_at);
       const auto white = look(white_at);
       if (!ice || !ring || !white || !like_ice(*ice, known_ice) || !like_ice(*white, known_ice)) continue;
-      const std::size_t sector = k * sectors / pixels.size();
-      ++looked[sector];
-      const float darker = -(*ring - *ice).minCoeff();
-      if (darker > 0.08F * ice->norm() && -(*ring - *white).minCoeff() > 0.5F * darker) ++rings[sector];
+      looks[k] = *ring - 0.5F * (*ice + *white);
     }
-    const int all = looked[0] + looked[1] + looked[2];
-    const auto ringed = [&](std::size_t k) { return looked[k] < 2 || rings[k] > most_ring_of_a_sector * looked[k]; };
-    if (all >= 5 && rings[0] + rings[1] + rings[2] > most_ring * all && ringed(0) && ringed(1) && ringed(2))
-      return true;
+    if (is_a_ring(looks, known_ice.norm())) return true;
   }
   return false;
 }
