@@ -52,6 +52,7 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return pose;
@@ -67,6 +68,7 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
       "Prints one JSON object a line, places in metres from the tee of the house in view.\n"
       "Example:\n"
       "  hogline stones --rig rig.yaml frame.jpg\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return stones;
 }
