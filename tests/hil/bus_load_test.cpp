@@ -10,8 +10,8 @@
 #include <sstream>
 #include <thread>
 
-#include "hw/canopen/bus_identifiers.hpp"
 #include "hw/canopen/can_hub.hpp"
+#include "src/steel/robot_bus.hpp"
 #include "tests/hil/hil.hpp"
 #include "tests/hil/load_tally.hpp"
 #include "tests/hil/process.hpp"
@@ -32,12 +32,6 @@ int periods_asked() {
   constexpr int hz = 200;
   const char* seconds_asked = std::getenv("HOGLINE_LOAD_S");
   return hz * (seconds_asked == nullptr ? 6 : std::atoi(seconds_asked));
-}
-
-std::vector<CanFilter> filters(const std::vector<std::uint32_t>& ids) {
-  std::vector<CanFilter> result;
-  for (const std::uint32_t id : ids) result.push_back({id});
-  return result;
 }
 
 // Stalls of the machine are no faults of the bus.
@@ -75,7 +69,7 @@ class Drives {
 
  private:
   static std::vector<CanFilter> heard_by_nodes() {
-    return filters(bus_identifiers(nodes, 127).own);  // what the master says
+    return robot_bus_config("", nodes, 127).own;  // what the master says
   }
 
   void live() {
@@ -116,16 +110,16 @@ TwoAxisHeadConfig silent_head_config() {
   return config;
 }
 
+SocketCanConfig patient_bus(const std::string& interface) {
+  SocketCanConfig config = robot_bus_config(interface, nodes, 127);
+  config.confirm_deadline = 2s;
+  return config;
+}
+
 // The robot's side of the bus.
 struct Robot {
   explicit Robot(const std::string& interface)
-      : ids(bus_identifiers(nodes, 127)),
-        bus({.interface = interface,
-             .receive = filters(ids.heard),
-             .own = filters(ids.own),
-             .one_at_a_time = filters(ids.set_points),
-             .confirm_deadline = 2s},
-            now()),
+      : bus(patient_bus(interface), now()),
         hub(bus),
         wheels(hub.make_endpoint(), wheels_config()),
         head(hub.make_endpoint(), silent_head_config()) {}
@@ -161,7 +155,6 @@ struct Robot {
     return "no error";
   }
 
-  BusIdentifiers ids;
   SocketCanBus bus;
   CanHub hub;
   TwoWheelDrive wheels;
