@@ -16,6 +16,8 @@ struct ThrowOptions {
   std::uint64_t seed = 1;
   std::string out = "out/throw";
   std::string fault;  ///< KIND@SECONDS, empty for none
+  std::string seer;   ///< oracle, rendered; empty: the campaign's, or rendered
+  std::string from;   ///< FOLDER/throws.csv:NUMBER: a campaign's throw in the place of all that says what is thrown
   bool json_only = false;
 };
 

@@ -23,15 +23,6 @@ void check_number(const char* option, double value, double low, double high, con
                             fmt::format("must be a number from {} to {} {}", low, high, unit));
 }
 
-// Before the throw, not after it.
-void check_folder(const std::string& folder) {
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
-    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
-  }
-}
-
 // One line a state, with the time at which it began; nothing more often, so that a log file stays readable.
 class StateTeller {
  public:
@@ -48,6 +39,17 @@ class StateTeller {
 
 }  // namespace
 
+void check_folder(const std::string& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
+    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
+  }
+}
+
+Eyes eyes_of(const std::string& seer) { return seer == "oracle" ? Eyes::oracle : Eyes::vision; }
+
+// The folder before the throw, not after it.
 ThrowRequest make_request(const ThrowOptions& options) {
   check_folder(options.out);
   ThrowRequest request;
@@ -66,6 +68,7 @@ ThrowRequest make_request(const ThrowOptions& options) {
                    .heading_rad = options.heading_deg * std::numbers::pi / 180.0,
                    .curl = options.curl == "cw" ? servo::Curl::clockwise : servo::Curl::counter_clockwise,
                    .spin_radps = options.spin_radps};
+  request.eyes = eyes_of(options.seer);
   if (!options.fault.empty()) request.fault = parse_fault(options.fault);
   return request;
 }

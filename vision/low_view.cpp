@@ -116,6 +116,8 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   return nothing;
 }
 
+const SheetFit& LowView::fit() const { return impl_->fit; }
+
 Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points,
                               std::optional<double> known_width_m) const {
   const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);

@@ -48,6 +48,7 @@ WorldHistory::Place WorldHistory::at(Stamp stamp) const {
           .pitch_rate_radps = span_s > 0.0 ? (b.pitch_rad - a.pitch_rad) / span_s : 0.0,
           .stone = mix(a.stone, b.stone, share),
           .held = b.held,
+          .others = b.others,
           .arm_unfolded = mix(a.arm_unfolded, b.arm_unfolded, share)};
 }
 

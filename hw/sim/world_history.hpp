@@ -21,6 +21,7 @@ class WorldHistory {
     double pitch_rate_radps = 0.0;
     StoneTruth stone;
     bool held = false;
+    std::vector<StoneTruth> others;
     double arm_unfolded = 0.0;
   };
   /// Precondition: at least one sample. A stamp outside what is kept gives the nearest sample.

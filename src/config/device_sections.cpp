@@ -39,7 +39,8 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
             .activation_deadline = s.duration("activation_deadline_s"),
             .silence_limit = s.duration("silence_limit_s"),
             .close_speed = static_cast<std::uint8_t>(s.integer("close_speed")),
-            .close_force = static_cast<std::uint8_t>(s.integer("close_force"))};
+            .close_force = static_cast<std::uint8_t>(s.integer("close_force")),
+            .freeing_travel = s.integer("freeing_travel")};
   g.belt = read_axis(s.section("belt"));
   g.max_spin_radps = s.number("max_spin_radps");
   return g;

@@ -71,7 +71,7 @@ std::vector<Case> gyro_faults() {
           [](Site& s) { gyro(s).set_stuck(true); }, [](Site& s) { gyro(s).set_stuck(false); }),
       with(stops("bias step", "0.5 deg/s while the robot measures", 3s, "gyro", biased(0.5), biased(-0.5)),
            Strike::measuring),
-      stops("bias step", "20 deg/s in the run", 200ms, "gyro and wheels disagree", biased(20.0), biased(-20.0)),
+      stops("bias step", "18 deg/s in the run", 200ms, "gyro and wheels disagree", biased(18.0), biased(-18.0)),
       stops("bias step", "2 deg/s in the run", 1s, "the sheet's direction and the gyro disagree", biased(2.0),
             biased(-2.0)),
       stops("overrange", "600 deg/s, marked valid", silence, "gyro: implausible", biased(600.0), biased(-600.0)),

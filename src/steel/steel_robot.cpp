@@ -41,7 +41,8 @@ hw::CameraWatch watch_of(const config::Rig& rig, const std::string& name) {
 }  // namespace
 
 SteelRobot::SteelRobot(const config::ThrowerRig& rig, const hw::Clock& clock)
-    : bus_(bus_config(rig), clock.now()),
+    : clock_(clock),
+      bus_(bus_config(rig), clock.now()),
       hub_(bus_),
       wheels_(hub_.make_endpoint(), rig.drive),
       drive_(bus_, wheels_, rig.head ? &head_.emplace(hub_.make_endpoint(), *rig.head) : nullptr),

@@ -14,6 +14,7 @@
 #include "hw/modbus/modbus_worker.hpp"
 #include "hw/socketcan/socket_can_bus.hpp"
 #include "src/config/thrower_rig.hpp"
+#include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
 
@@ -51,6 +52,11 @@ class SteelRobot {
   SteelRobot(const SteelRobot&) = delete;
   SteelRobot& operator=(const SteelRobot&) = delete;
 
+  /// What the thrower's loop drives; the operator's switch is the caller's.
+  ThrowerDevices devices(hw::OperatorSwitch& operator_switch) {
+    return {drive_, gripper(), arm(), gyro_, near_checked_, low_checked_, operator_switch, clock_};
+  }
+
   hw::Drive& drive() { return drive_; }
   /// Stepped by the drive. Null where the rig has none.
   hw::Head* head() { return head_ ? &*head_ : nullptr; }
@@ -62,6 +68,7 @@ class SteelRobot {
   const hw::SocketCanState& can_state() const { return bus_.state(); }
 
  private:
+  const hw::Clock& clock_;
   hw::SocketCanBus bus_;
   hw::CanHub hub_;
   hw::TwoWheelDrive wheels_;

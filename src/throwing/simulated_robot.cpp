@@ -7,7 +7,6 @@
 namespace hogline {
 namespace {
 
-constexpr int render_threads = 2;
 constexpr Stamp simulation_start{std::chrono::seconds{1}};  // the epoch stands for "never heard of"
 
 hw::sim::Scenario completed(hw::sim::Scenario scenario, const config::ThrowerRig& rig) {
@@ -62,7 +61,7 @@ hw::CameraWatch watch_of(const config::Rig& rig, const std::string& camera) {
 
 }  // namespace
 
-SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario)
+SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario, int render_threads)
     : scenario_(completed(std::move(scenario), rig)),
       rink_(rink_config(rig, scenario_), simulation_start),
       drive_(rink_.can(), rig.drive),

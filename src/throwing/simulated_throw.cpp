@@ -74,7 +74,7 @@ void boot(SimulatedRobot& robot, Duration period) {
 }
 
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) {
-  SimulatedRobot robot(rig_of(request), request.scenario);
+  SimulatedRobot robot(rig_of(request), request.scenario, request.render_threads);
   const Duration period = request.rig.drive.timing.control_period;
   boot(robot, period);
 
@@ -83,7 +83,8 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   OracleSeer oracle = oracle_of(robot, request.rig);
   SheetSeer& seer = request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision;
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
-                   servo::Thrower(request.rig.thrower, request.order, start));
+                   servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
+  loop.arm(start);
   ThrowJudge judge(request.rig.thrower, robot.scenario(), request.order, start);
   ThrowOutcome outcome;
   bool fault_waits = request.fault.has_value();

@@ -25,6 +25,7 @@ struct ThrowRequest {
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
+  int render_threads = 2;
 };
 
 /// What there is to show of a throw.

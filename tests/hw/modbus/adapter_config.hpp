@@ -21,7 +21,8 @@ inline JawsConfig jaws_config(const AdapterPace& pace = {}) {
           .activation_deadline = pace.activation_deadline,
           .silence_limit = pace.silence_limit,
           .close_speed = 255,
-          .close_force = 128};
+          .close_force = 128,
+          .freeing_travel = 20};
 }
 
 inline AxisConfig axis_config(int unit, const AdapterPace& pace = {}) {
