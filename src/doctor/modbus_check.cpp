@@ -142,7 +142,10 @@ AxisFinding examine_axis(const char* device, hw::axis::Kind kind, const hw::Axis
   }
   axis.status = s;
   if (s.faulted) {
-    axis.finding.wrong("fault: " + hw::axis::describe_fault(s.fault), "remove the cause; the command stop clears it");
+    const bool gone = s.fault == 0;
+    axis.finding.wrong(
+        "fault: " + hw::axis::describe_fault(s.fault),
+        gone ? "it is reset when a throw is armed" : "remove the cause; it is reset when a throw is armed");
   }
   if (s.moving) axis.finding.note("moves, though nobody asked it here", "is another program running?");
   return axis;

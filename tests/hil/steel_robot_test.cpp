@@ -12,6 +12,7 @@
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/steel/steel_robot.hpp"
+#include "src/throwing/thrower_loop.hpp"
 #include "tests/hil/drive_config.hpp"
 #include "tests/hil/hil.hpp"
 #include "tests/hil/process.hpp"
@@ -173,6 +174,49 @@ TEST_F(SteelRobotTest, EveryPortIsServedByItsDeviceAndTellsWhenItIsGone) {
   EXPECT_EQ(robot_->drive().state().phase, hw::DrivePhase::faulted);
   EXPECT_FALSE(robot_->near_camera().error()) << "its pictures do not come from there";
   std::printf("%s", errors().c_str());
+}
+
+// Recorded pictures show no sheet here: the throw must end where it began, with everything said and nothing moved.
+class SeesNothing final : public SheetSeer {
+ public:
+  SheetPosePercept near_view(const hw::Frame& frame) override { return nothing(frame); }
+  SheetPosePercept low_view(const hw::Frame& frame, const vision::LowViewPrediction&) override {
+    return nothing(frame);
+  }
+
+ private:
+  static SheetPosePercept nothing(const hw::Frame& frame) {
+    SheetPosePercept percept;
+    percept.stamp = frame.stamp;
+    percept.reason = "nothing to see";
+    return percept;
+  }
+};
+
+TEST_F(SteelRobotTest, TheThrowersOwnLoopRunsOnItAndEndsAThrowThatSeesNothing) {
+  ASSERT_TRUE(run_until(hw::DrivePhase::ready)) << errors();
+  ASSERT_TRUE(run_until([&] { return robot_->gripper().state().jaws == hw::JawState::holding; })) << errors();
+  hw::HeldSwitch held;
+  SeesNothing seer;
+  ThrowerLoop loop(robot_->devices(held), ThrowerEyes(seer, rig_->looks),
+                   servo::Thrower(rig_->thrower, {.speed_mps = 2.0, .spin_radps = 1.5}, clock_.now()),
+                   servo::Supervisor(rig_->thrower));
+  held.step(clock_.now());
+  loop.arm(clock_.now());
+  Stamp last = clock_.now();
+  ASSERT_TRUE(wait_until(
+      [&] {
+        const Stamp present = clock_.now();
+        held.step(present);
+        loop.step(present, present - std::exchange(last, present));
+        return loop.thrower().finished();
+      },
+      60s, 5ms));
+  ASSERT_TRUE(loop.thrower().abort_reason());
+  std::printf("ended: %s\n", loop.thrower().abort_reason()->c_str());
+  EXPECT_FALSE(loop.thrower().released());
+  EXPECT_EQ(robot_->gripper().state().jaws, hw::JawState::holding);
+  EXPECT_LT(std::abs(robot_->drive().state().measured.left_radps), 0.05);
 }
 
 TEST(SteelRobotConfig, RefusesARigOfTheSimulatedRink) {
