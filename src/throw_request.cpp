@@ -74,6 +74,7 @@ ThrowRequest make_request(const ThrowOptions& options) {
 }
 
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request) {
+  fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   const auto begin = std::chrono::steady_clock::now();
   ThrowOutcome outcome = throw_stone(request, StateTeller());
   outcome.result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
