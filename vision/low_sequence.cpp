@@ -156,6 +156,7 @@ const SheetFitResult& LowSequence::Impl::follow_at_any_speed(const cv::Mat& imag
 bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
   if (!result.ok) return give_up(result.reason);
   if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return give_up(std::move(why));
+  if (std::string why = doubt_of_response(result); !why.empty()) return give_up(std::move(why));
   if (!hog_line_seen(result)) {
     if (!take_blind(result, stamp)) return false;
   } else {

@@ -11,10 +11,10 @@
 namespace hogline::hw {
 namespace {
 
-// One TPDO1 a period of time is right, by the frames' own stamps: when they were read says nothing, for a program that is
-// held up reads several at once. A doubled frame now and then is forgiven: this much of a surplus is forgotten each
-// period, and at this surplus somebody else sends it too. Frames that were missing may come late and all at once, as far
-// as the feedback's timeout allows.
+// One TPDO1 a period of time is right, by the frames' own stamps: when they were read says nothing, for a program that
+// is held up reads several at once. A doubled frame now and then is forgiven: this much of a surplus is forgotten each
+// period, and at this surplus somebody else sends it too. Frames that were missing may come late and all at once, as
+// far as the feedback's timeout allows.
 constexpr double forgotten_surplus = 0.1;
 constexpr double most_surplus = 4.0;
 

@@ -104,19 +104,14 @@ std::vector<Case> device_faults() {
             "jaws: device fault: the jaws lost their activation",
             device([](auto& jaws, auto&, auto&) { jaws.cut_power(); }), {}),
       stops("spin belt fault", "the belt reports a fault", 30ms, "spin belt: device fault",
-            device([](auto&, auto& belt, auto&) { belt.set_fault(1); }), device([](auto&, auto& belt, auto&) {
-              belt.set_fault(0);
-              belt.power_cycle();
-            })),
+            device([](auto&, auto& belt, auto&) { belt.set_fault(1); }),
+            device([](auto&, auto& belt, auto&) { belt.set_fault(0); })),
       stops("spin belt restarts", "its supply fails for a moment", 30ms, "spin belt: protocol",
             device([](auto&, auto& belt, auto&) { belt.power_cycle(); }), [](Site&) {}),
-      with(
-          stops("folding arm fault", "the arm reports a fault while the robot turns", 60ms, "folding arm: device fault",
-                device([](auto&, auto&, auto& arm) { arm.set_fault(1); }), device([](auto&, auto&, auto& arm) {
-                  arm.set_fault(0);
-                  arm.power_cycle();
-                })),
-          Strike::aligning),
+      with(stops("folding arm fault", "the arm reports a fault while the robot turns", 60ms,
+                 "folding arm: device fault", device([](auto&, auto&, auto& arm) { arm.set_fault(1); }),
+                 device([](auto&, auto&, auto& arm) { arm.set_fault(0); })),
+           Strike::aligning),
       with(stops(
                "server dies at the release", "in the period after the order to open", silence, "jaws: disconnected",
                [](Site& s) { s.rink().modbus().stop(); }, [](Site& s) { s.rink().modbus().restart(); }),

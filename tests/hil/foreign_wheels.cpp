@@ -7,7 +7,7 @@ namespace hogline::hil {
 using namespace hogline::hw;
 
 ForeignWheels::ForeignWheels(const TwoWheelDriveConfig& config)
-    : bus(robot_bus_config("vcan0"), now()), drive(bus, config) {
+    : bus(wheels_bus_config("vcan0"), now()), drive(bus, config) {
   EXPECT_TRUE(run_until(bus, [&] { return bus.up(); }));
 }
 

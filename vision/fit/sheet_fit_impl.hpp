@@ -53,6 +53,7 @@ struct SheetFit::Impl {
   Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
+  void report_bleed();
   void find_hidden();
   void report_sites();
   std::string refusal(const SheetFitStart& start) const;

@@ -139,7 +139,7 @@ TEST(ModbusWorker, each_port_is_rearmed_by_itself) {
   rig.run_until([&] { return gripper.state().error && arm.state().error; });
   rig.devices.inject([](auto& jaws, auto&, auto& axis) {
     jaws.set_fault(0);
-    axis.power_cycle();
+    axis.set_fault(0);
   });
   arm.rearm();
   rig.run_until([&] { return !arm.state().error; });
