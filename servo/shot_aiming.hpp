@@ -1,4 +1,5 @@
-// Which release brings a stone to a wanted place on this ice: speed, heading and sense of spin. Frame s throughout.
+// Which release brings a stone to a wanted place on this ice, to rest there or to hit with a wanted speed: speed,
+// heading and sense of spin. Frame s throughout.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,6 +40,28 @@ struct ShotAim {
   PlaceCovariance covariance;  ///< of where it will stop: ice, its scatter from throw to throw, and the thrower
   double clearance_m = 0.0;    ///< least gap between the running stone and one that stands; large without any
 };
+
+/// A stone that shall pass a place with a speed: a hit, seen from where the thrown stone's centre is at the contact.
+struct HitWish {
+  Place contact;
+  double speed_mps = 0.0;
+  std::optional<Curl> curl{};
+  std::vector<Place> stones{};  ///< that stand on the way to it; not the one that is to be hit
+};
+
+struct HitAim {
+  bool ok = false;
+  std::string reason;
+  ShotOrder order;
+  double speed_mps = 0.0;        ///< at the contact, as predicted
+  double heading_rad = 0.0;      ///< of the velocity there, from s's y axis
+  double aside_sigma_m = 0.0;    ///< of x where it crosses the contact's y: ice, throw and thrower
+  double speed_sigma_mps = 0.0;  ///< there
+  double clearance_m = 0.0;
+};
+
+/// Refused as aim_shot() refuses.
+HitAim aim_hit(const HitWish& wish, const ThrowerSkill& skill, const IceModel& ice);
 
 /// A way that touches a stone before its end is refused ("the way is not free"), one beyond the thrower's speed too.
 ShotAim aim_shot(const ShotWish& wish, const ThrowerSkill& skill, const IceModel& ice);

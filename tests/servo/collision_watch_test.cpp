@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "servo/ice_model.hpp"
 #include "servo/skip_sheet.hpp"
 #include "tests/servo/throw_scene.hpp"
 
@@ -159,6 +160,39 @@ TEST(CollisionWatch, FollowsTheStoneFromHogLineToHouseWithoutAJump) {
   for (const Region* region : {&far_hog, &near_hog, &house}) {
     EXPECT_GT(region->normalised_rms(), 0.7);
     EXPECT_LT(region->normalised_rms(), 1.3);
+  }
+}
+
+TEST(CollisionWatch, ForetellsTheStopWhileTheStoneRuns) {
+  const Kind draw{"draw", SceneKind::draw, true, false};
+  double along_square = 0.0, across_square = 0.0;
+  const int throws = 30;
+  for (int seed = 0; seed < throws; ++seed) {
+    std::mt19937_64 random = random_of(draw, 300 + seed);
+    Scene scene = scene_of(draw.kind, random);
+    scene.standing.clear();
+    const Played played = play(scene, {}, random);
+    // This ice has neither lanes nor sweepers nor throws that differ: with their noise the sigmas would be too large.
+    CollisionWatchConfig config = watch_config(about(scene.ice, random));
+    config.world.noise = {.place_m = 0.0, .velocity_mps = 0.0, .friction = 0.0, .curl = 0.0};
+    config.world.throw_friction_sigma = 1e-4;
+    CollisionWatch watch(config, throw_start, {});
+    watch.released(signal_of(scene));
+    Stamp now{};
+    for (const Picture& picture : played.pictures) {
+      watch.look(picture.percept, picture.view);
+      now = picture.percept.stamp;
+      if (watch.at(now).thrown()->motion.stone.y_m < 10.0) break;
+    }
+    const StoneMotion motion = watch.at(now).thrown()->motion;
+    const StopPrediction stop = predict_stop(motion.stone, motion.ice, motion_covariance(motion));
+    const SlidingStone& truth = played.truth.back().stones.back();
+    along_square += std::pow((stop.y_m - truth.y_m) / std::sqrt(stop.covariance.yy_m2), 2);
+    across_square += std::pow((stop.x_m - truth.x_m) / std::sqrt(stop.covariance.xx_m2), 2);
+  }
+  for (const double square : {along_square, across_square}) {
+    EXPECT_GT(std::sqrt(square / throws), 0.7);
+    EXPECT_LT(std::sqrt(square / throws), 1.3);
   }
 }
 

@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
+#include "servo/stone_path.hpp"
 #include "tests/servo/ice_session.hpp"
 
 namespace hogline::servo::test {
@@ -62,6 +64,60 @@ TEST(ShotAiming, GoesAroundAGuard) {
   const ShotAim blocked = aim_shot({wish, Curl::counter_clockwise, guard}, robot(), ice);
   EXPECT_FALSE(blocked.ok);
   EXPECT_EQ(blocked.reason, "the way is not free");
+}
+
+RC_GTEST_PROP(ShotAimingProperty, AHitComesToItsPlaceWithItsSpeed, ()) {
+  const IceModel ice = ice_with(1e-3 * *rc::gen::inRange(850, 1200), 1e-3 * *rc::gen::inRange(600, 1100),
+                                1e-6 * *rc::gen::inRange(-500, 500));
+  const Place contact{1e-3 * *rc::gen::inRange(-1800, 1800), 1e-3 * *rc::gen::inRange(33000, 40000)};
+  const double speed = 1e-3 * *rc::gen::inRange(200, 2000);
+  const HitAim aim = aim_hit({contact, speed}, robot(), ice);
+  RC_PRE(aim.reason != "the thrower is not fast enough");
+  RC_ASSERT(aim.ok);
+  const double spin = aim.order.curl == Curl::counter_clockwise ? aim.order.spin_radps : -aim.order.spin_radps;
+  const double v = aim.order.speed_mps, h = aim.order.heading_rad;
+  const StonePath path({robot().release.x_m, robot().release.y_m, -v * std::sin(h), v * std::cos(h), spin},
+                       ice.estimate().factors());
+  const SlidingStone there = path.at(*path.crossing_s(contact.y_m)).stone;
+  RC_ASSERT(std::abs(there.x_m - contact.x_m) < 2e-3);
+  RC_ASSERT(std::abs(speed_mps(there) - speed) < 1e-3);
+  RC_ASSERT(std::abs(std::atan2(-there.vx_mps, there.vy_mps) - aim.heading_rad) < 1e-3);
+}
+
+// The stated doubt of a hit is that of many throws by this thrower on ice of this doubt.
+TEST(ShotAiming, AHitsStatedDoubtIsThatOfManyThrows) {
+  const IceModel ice = ice_with(1.0, 0.9, 2e-4);
+  const HitAim aim = aim_hit({{0.3, far_tee_m}, 1.2}, robot(), ice);
+  ASSERT_TRUE(aim.ok) << aim.reason;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const double spin = aim.order.curl == Curl::counter_clockwise ? aim.order.spin_radps : -aim.order.spin_radps;
+  const Eigen::Matrix3d c = ice.throw_covariance();
+  double aside_square = 0.0, speed_square = 0.0;
+  const int throws = 400;
+  for (int i = 0; i < throws; ++i) {
+    const double v = aim.order.speed_mps + robot().speed_sigma_mps * normal(random);
+    const double h = aim.order.heading_rad + robot().heading_sigma_rad * normal(random);
+    IceFactors factors = ice.estimate().factors();
+    factors.friction_scale += std::sqrt(c(0, 0)) * normal(random);
+    factors.curl_gain += std::sqrt(c(1, 1)) * normal(random);
+    factors.lateral_mps2 += std::sqrt(c(2, 2)) * normal(random);
+    const StonePath path({robot().release.x_m, robot().release.y_m, -v * std::sin(h), v * std::cos(h), spin}, factors);
+    const SlidingStone there = path.at(*path.crossing_s(far_tee_m)).stone;
+    aside_square += std::pow((there.x_m - 0.3) / aim.aside_sigma_m, 2);
+    speed_square += std::pow((speed_mps(there) - 1.2) / aim.speed_sigma_mps, 2);
+  }
+  EXPECT_NEAR(std::sqrt(aside_square / throws), 1.0, 0.12);
+  EXPECT_NEAR(std::sqrt(speed_square / throws), 1.0, 0.12);
+}
+
+TEST(ShotAiming, AHitThatCanNotBeIsRefused) {
+  const IceModel ice = ice_with(1.0, 0.9, 0.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(aim_hit({{0.0, 5.0}, 1.0}, robot(), ice).reason, "the wanted place is not down-ice of the release");
+  EXPECT_EQ(aim_hit({{0.0, 38.0}, 0.0}, robot(), ice).reason, "the wanted speed is none of a hit");
+  EXPECT_EQ(aim_hit({{0.0, 38.0}, nan}, robot(), ice).reason, "the wanted speed is none of a hit");
+  EXPECT_EQ(aim_hit({{0.0, 38.0}, 3.5}, robot(), ice).reason, "the thrower is not fast enough");
 }
 
 struct Impossible {
