@@ -12,6 +12,8 @@ constexpr double spacing_px = 10.0;
 constexpr double even_share = 0.4;  // of the places are spread evenly
 constexpr double place_sigma_px = 0.1;
 constexpr double nearby_px = 45.0;
+constexpr double most_too_many = 1.4;
+constexpr double hasty = 3.0;
 constexpr double hidden_worth = 0.15;  // what hides it may go away
 
 }  // namespace
@@ -99,7 +101,9 @@ void PlaceChoice::renew_one_feature(const SheetCamera& camera, const FitState& s
   const auto place = sites.erase(first, last);
   sites.insert(place, planned_.begin(), planned_.end());
   const double too_many = static_cast<double>(sites.size()) / wanted_;
-  quantum_ *= std::pow(std::clamp(too_many, 0.5, 2.0), 1.0 / paint_feature_count);
+  // A line that comes near shows two edges where it was one: far too many are thinned out faster.
+  const double patience = too_many > most_too_many ? hasty : paint_feature_count;
+  quantum_ *= std::pow(std::clamp(too_many, 0.5, 2.0), 1.0 / patience);
 }
 
 }  // namespace hogline::vision
