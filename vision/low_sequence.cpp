@@ -32,7 +32,10 @@ ChoiceWishes wishes() {
   const auto& features = paint_features();
   const auto hog =
       std::find_if(features.begin(), features.end(), [](const PaintFeature& f) { return f.name == "hog_line"; });
-  return {.certain_feature = static_cast<int>(hog - features.begin()), .certain_places = 24, .avoid_hidden = true};
+  return {.certain_feature = static_cast<int>(hog - features.begin()),
+          .certain_places = 24,
+          .least_places = 12,
+          .avoid_hidden = true};
 }
 
 const FittedFeature* hog_line_of(const SheetFitResult& result) {

@@ -55,22 +55,26 @@ bool PlaceChoice::hidden(const PlannedSite& site, const std::vector<PlannedSite>
   return unseen > 2 * seen;
 }
 
-// By how much the certain feature's places must count more, so that as many as wished are taken.
-double PlaceChoice::certainty(const std::vector<PlannedSite>& before) const {
-  double sum = 0.0;
+// By how much a feature's places must count more, so that as many as wished are taken.
+std::array<double, paint_feature_count> PlaceChoice::certainty(const std::vector<PlannedSite>& before) const {
+  std::array<double, paint_feature_count> factors{};
   for (const PlannedSite& site : planned_) {
-    if (site.feature == wishes_.certain_feature && !hidden(site, before)) sum += even_ + tells(site);
+    if (!hidden(site, before)) factors[static_cast<std::size_t>(site.feature)] += even_ + tells(site);
   }
-  return sum > 0.0 ? std::max(1.0, wishes_.certain_places * quantum_ / sum) : 1.0;
+  for (int f = 0; f < paint_feature_count; ++f) {
+    double& sum = factors[static_cast<std::size_t>(f)];
+    const int least = f == wishes_.certain_feature ? wishes_.certain_places : wishes_.least_places;
+    sum = sum > 0.0 ? std::max(1.0, least * quantum_ / sum) : 1.0;
+  }
+  return factors;
 }
 
 // Takes places in turn, as often as they are worth.
 void PlaceChoice::keep_chosen(const std::vector<PlannedSite>& before) {
-  const double certain = certainty(before);
+  const auto certain = certainty(before);
   double sum = 0.5 * quantum_;
   const auto passed_over = [&](const PlannedSite& site) {
-    double worth = even_ + tells(site);
-    if (site.feature == wishes_.certain_feature) worth *= certain;
+    double worth = certain[static_cast<std::size_t>(site.feature)] * (even_ + tells(site));
     if (hidden(site, before)) worth *= hidden_worth;
     sum += worth;
     if (sum < quantum_) return true;
