@@ -2,6 +2,7 @@
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -85,6 +86,33 @@ class WrongUse(unittest.TestCase):
         with open(rig, encoding="utf-8") as f:
             text = f.read().replace("source: {simulated: {},", "source: {video: {path: run.mp4},", 1)
         self.refuses(run("doctor", "--rig", self.file("rig.yaml", text.encode())), "can.interface", "missing")
+
+    def part(self, *sections, edits=()):
+        """A rig with these of the practice rig's sections alone."""
+        with open(RIG, encoding="utf-8") as f:
+            parts = re.split(r"(?m)^(?=[a-z]+:)", f.read())
+        text = "".join(p for p in parts if p.split(":")[0] in ("cameras", "sheet", "ice", "stone", *sections))
+        for old, new in edits:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        return self.file("part.yaml", text.encode())
+
+    def test_a_doctor_examines_what_a_rig_declares(self):
+        for sections, devices in (((), ["near camera", "low camera"]), (("can",), ["CAN bus"]),
+                                  (("can", "head"), ["CAN bus", "pan", "tilt"]), (("gyro",), ["gyro"])):
+            edits = [("interface: can0", "interface: nosuchcan0")] if "can" in sections else []
+            result = run("doctor", "--json", "--rig", self.part(*sections, edits=edits))
+            found = [d["device"] for d in json.loads(result.stdout)["devices"]]
+            self.assertEqual(found[:len(devices)], devices)
+            self.assertEqual(len(found), len(devices) if not sections else len(devices) + 2)
+            self.assertEqual(result.returncode, 1 if sections else 0, result.stdout)
+
+    def test_a_gripper_without_a_line(self):
+        self.refuses(run("doctor", "--rig", self.part("gripper")), "modbus", "missing", "gripper")
+
+    def test_a_mistyped_subcommand(self):
+        self.refuses(run("dcotor", "--rig", RIG), "dcotor", "did you mean doctor?", "pose", "faults")
+        self.refuses(run("xylophone"), "xylophone", "throw")
 
     def test_no_subcommand(self):
         self.assertEqual(run().returncode, 2)
