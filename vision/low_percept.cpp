@@ -46,7 +46,7 @@ double bleed_error_m(const SheetFitResult& result) {
 std::string doubt_of_response(const SheetFitResult& result) {
   const double bleed_px = std::abs(result.bleed_px);
   if (bleed_px < most_bleed_px || bleed_px < sure_sigmas * result.bleed_sigma_px) return {};
-  return "all edges lie too far to one side: the camera's gamma is not as the rig says";
+  return "all edges lie too far to one side: the rig's gamma, lens or mount is not the camera's";
 }
 
 std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup) {

@@ -32,7 +32,10 @@ ChoiceWishes wishes() {
   const auto& features = paint_features();
   const auto hog =
       std::find_if(features.begin(), features.end(), [](const PaintFeature& f) { return f.name == "hog_line"; });
-  return {.certain_feature = static_cast<int>(hog - features.begin()), .certain_places = 24, .avoid_hidden = true};
+  return {.certain_feature = static_cast<int>(hog - features.begin()),
+          .certain_places = 24,
+          .least_places = 12,
+          .avoid_hidden = true};
 }
 
 const FittedFeature* hog_line_of(const SheetFitResult& result) {
@@ -58,6 +61,7 @@ struct LowSequence::Impl {
   void acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch);
   bool dead_reckon(const cv::Mat& image, Stamp stamp);
   SheetFitStart track_start(const Pose& near_by) const;
+  void forget();
   void remember_pitch();
   SheetPrediction predict_camera(Stamp stamp) const;
   LowViewPrediction predict_body(Stamp stamp) const;
@@ -143,12 +147,12 @@ bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
 // A step of full speed between two frames is too long for one search as long as the speed is not known.
 const SheetFitResult& LowSequence::Impl::follow_at_any_speed(const cv::Mat& image, Stamp stamp) {
   const SheetFitResult& result = track.follow(image, predict_camera(stamp));
-  if (result.ok || along.known()) return result;
-  for (const double speed_mps : {0.0, 3.0}) {
+  if (along.known() || (result.ok && hog_line_seen(result))) return result;
+  for (const double speed_mps : {0.0, 0.9, 2.6, 3.5}) {
     SheetPrediction other = predict_camera(stamp);
     const double ahead_m = (speed_mps - along.speed_mps(stamp)) * seconds(stamp - along.last_stamp());
     other.eMc.translation().y() += ahead_m;
-    if (track.follow(image, other).ok) break;
+    if (track.follow(image, other).ok && hog_line_seen(result)) break;
   }
   return result;
 }
@@ -223,11 +227,14 @@ bool LowSequence::Impl::dead_reckon(const cv::Mat& image, Stamp stamp) {
 }
 
 void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch) {
-  if (!along.empty() && seconds(stamp - along.last_stamp()) > longest_blind_s) {
-    along.clear();
-    across.clear();
-  }
+  if (!along.empty() && seconds(stamp - along.last_stamp()) > longest_blind_s) forget();
   percept = view.acquire(image, stamp, predict_body(stamp), sketch);
+  if (!percept.ok && !along.empty() && seconds(stamp - along.last_stamp()) > longest_gap_s) {
+    // What the frames before say is no longer to be relied on.
+    forget();
+    percept = view.acquire(image, stamp, predict_body(stamp), sketch);
+  }
+  if (!percept.ok && !along.empty()) percept.reason += " (where the frames before put it)";
   if (!percept.ok) return;
   percept.features.reserve(most_features);
   percept.features.insert(percept.features.begin(), "acquired");
@@ -239,6 +246,11 @@ void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch
 
   tracking = track.begin(view.fit(), track_start(eMc)).ok;
   remember_pitch();
+}
+
+void LowSequence::Impl::forget() {
+  along.clear();
+  across.clear();
 }
 
 void LowSequence::Impl::remember_pitch() {

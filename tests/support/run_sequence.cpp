@@ -1,5 +1,6 @@
 #include "tests/support/run_sequence.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -80,29 +81,51 @@ RunSequence::RunSequence(const RunMove& move, int threads)
     : move_(move),
       setup_(setup_of(move)),
       renderer_(setup_.intrinsics, move.ice, move.rink, move.sensor, move.seed, threads) {
-  assert(move.rate_hz > 0.0 && move.speed_mps > 0.0 && move.acceleration_mps2 >= 0.0);
+  assert(move.rate_hz > 0.0);
+  assert(!move.legs.empty() || (move.speed_mps > 0.0 && move.acceleration_mps2 >= 0.0));
   const double whole_m = move.first_hog_distance_m - move.last_hog_distance_m;
-  while (way_m(frames_ / move.rate_hz) < whole_m) ++frames_;
+  double whole_s = 0.0;
+  for (const RunLeg& leg : move.legs) whole_s += leg.duration_s;
+  const auto goes_on = [&](double t_s) { return move.legs.empty() ? motion(t_s).way_m < whole_m : t_s < whole_s; };
+  while (goes_on(frames_ / move.rate_hz)) ++frames_;
 }
 
-double RunSequence::pitch_rad(double t_s) const {
-  return move_.rock_rad * std::sin(2.0 * std::numbers::pi * move_.rock_hz * t_s) -
-         move_.squat_rad_per_mps2 * move_.acceleration_mps2;
+RunSequence::Motion RunSequence::motion(double t_s) const {
+  Motion now{0.0, move_.speed_mps, move_.acceleration_mps2};
+  const auto go_on = [&now](double dt_s) {
+    now.way_m += (now.speed_mps + 0.5 * now.acceleration_mps2 * dt_s) * dt_s;
+    now.speed_mps += now.acceleration_mps2 * dt_s;
+  };
+  if (move_.legs.empty()) go_on(t_s);
+  for (const RunLeg& leg : move_.legs) {
+    if (t_s < 0.0) break;
+    now.acceleration_mps2 = leg.acceleration_mps2;
+    go_on(std::min(t_s, leg.duration_s));
+    t_s -= leg.duration_s;
+  }
+  return now;
+}
+
+// A body that stands does not rock.
+double RunSequence::pitch_rad(double t_s, const Motion& now) const {
+  const double rocking = move_.legs.empty() ? 1.0 : std::min(1.0, std::abs(now.speed_mps));
+  return rocking * move_.rock_rad * std::sin(2.0 * std::numbers::pi * move_.rock_hz * t_s) -
+         move_.squat_rad_per_mps2 * now.acceleration_mps2;
 }
 
 RunFrame RunSequence::frame(int k) const {
   assert(k >= 0 && k < frames_);
   const double t = k / move_.rate_hz;
-  const double speed_mps = move_.speed_mps + move_.acceleration_mps2 * t;
-  const PlanarPose planar{move_.x_m - std::sin(move_.yaw_rad) * way_m(t),
-                          vision::rules::tee_to_hog_m - move_.first_hog_distance_m + way_m(t),
+  const Motion now = motion(t);
+  const PlanarPose planar{move_.x_m - std::sin(move_.yaw_rad) * now.way_m,
+                          vision::rules::tee_to_hog_m - move_.first_hog_distance_m + now.way_m,
                           move_.yaw_rad + move_.yaw_rate_radps * t};
   vision::Pose eMb = vision::eMb(planar);
-  eMb.rotate(Eigen::AngleAxisd(pitch_rad(t), Eigen::Vector3d::UnitY()));
+  eMb.rotate(Eigen::AngleAxisd(pitch_rad(t, now), Eigen::Vector3d::UnitY()));
 
   hw::sim::Exposure exposure;
   exposure.eMc = eMb * vision::bMc(setup_.mount);
-  exposure.velocity.linear = {-std::sin(move_.yaw_rad) * speed_mps, speed_mps, 0.0};
+  exposure.velocity.linear = {-std::sin(move_.yaw_rad) * now.speed_mps, now.speed_mps, 0.0};
   exposure.velocity.angular = {0.0, 0.0, move_.yaw_rate_radps};
   exposure.duration_s = move_.exposure_s;
   RunFrame frame;

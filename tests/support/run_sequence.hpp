@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "hw/sim/appearance.hpp"
 #include "hw/sim/sheet_renderer.hpp"
@@ -13,10 +14,17 @@
 
 namespace hogline::testing {
 
+/// A stretch of time at one acceleration.
+struct RunLeg {
+  double duration_s = 0.0;
+  double acceleration_mps2 = 0.0;
+};
+
 /// All that can be chosen. As it stands: 2.6 m/s from 2.5 m before the hog line to 0.35 m before it.
 struct RunMove {
   double speed_mps = 2.6;  ///< at the first frame
   double acceleration_mps2 = 0.0;
+  std::vector<RunLeg> legs;  ///< where there are any, they say how it goes on after the first frame, and how long
   double first_hog_distance_m = 2.5;
   double last_hog_distance_m = 0.35;
   double x_m = 0.05;  ///< at the first frame
@@ -57,8 +65,13 @@ class RunSequence {
   RunFrame frame(int k) const;
 
  private:
-  double way_m(double t_s) const { return (move_.speed_mps + 0.5 * move_.acceleration_mps2 * t_s) * t_s; }
-  double pitch_rad(double t_s) const;
+  struct Motion {
+    double way_m = 0.0;
+    double speed_mps = 0.0;
+    double acceleration_mps2 = 0.0;
+  };
+  Motion motion(double t_s) const;
+  double pitch_rad(double t_s, const Motion& now) const;
 
   RunMove move_;
   vision::CameraSetup setup_;

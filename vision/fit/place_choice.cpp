@@ -12,6 +12,8 @@ constexpr double spacing_px = 10.0;
 constexpr double even_share = 0.4;  // of the places are spread evenly
 constexpr double place_sigma_px = 0.1;
 constexpr double nearby_px = 45.0;
+constexpr double most_too_many = 1.4;
+constexpr double hasty = 3.0;
 constexpr double hidden_worth = 0.15;  // what hides it may go away
 
 }  // namespace
@@ -53,22 +55,26 @@ bool PlaceChoice::hidden(const PlannedSite& site, const std::vector<PlannedSite>
   return unseen > 2 * seen;
 }
 
-// By how much the certain feature's places must count more, so that as many as wished are taken.
-double PlaceChoice::certainty(const std::vector<PlannedSite>& before) const {
-  double sum = 0.0;
+// By how much a feature's places must count more, so that as many as wished are taken.
+std::array<double, paint_feature_count> PlaceChoice::certainty(const std::vector<PlannedSite>& before) const {
+  std::array<double, paint_feature_count> factors{};
   for (const PlannedSite& site : planned_) {
-    if (site.feature == wishes_.certain_feature && !hidden(site, before)) sum += even_ + tells(site);
+    if (!hidden(site, before)) factors[static_cast<std::size_t>(site.feature)] += even_ + tells(site);
   }
-  return sum > 0.0 ? std::max(1.0, wishes_.certain_places * quantum_ / sum) : 1.0;
+  for (int f = 0; f < paint_feature_count; ++f) {
+    double& sum = factors[static_cast<std::size_t>(f)];
+    const int least = f == wishes_.certain_feature ? wishes_.certain_places : wishes_.least_places;
+    sum = sum > 0.0 ? std::max(1.0, least * quantum_ / sum) : 1.0;
+  }
+  return factors;
 }
 
 // Takes places in turn, as often as they are worth.
 void PlaceChoice::keep_chosen(const std::vector<PlannedSite>& before) {
-  const double certain = certainty(before);
+  const auto certain = certainty(before);
   double sum = 0.5 * quantum_;
   const auto passed_over = [&](const PlannedSite& site) {
-    double worth = even_ + tells(site);
-    if (site.feature == wishes_.certain_feature) worth *= certain;
+    double worth = certain[static_cast<std::size_t>(site.feature)] * (even_ + tells(site));
     if (hidden(site, before)) worth *= hidden_worth;
     sum += worth;
     if (sum < quantum_) return true;
@@ -99,7 +105,9 @@ void PlaceChoice::renew_one_feature(const SheetCamera& camera, const FitState& s
   const auto place = sites.erase(first, last);
   sites.insert(place, planned_.begin(), planned_.end());
   const double too_many = static_cast<double>(sites.size()) / wanted_;
-  quantum_ *= std::pow(std::clamp(too_many, 0.5, 2.0), 1.0 / paint_feature_count);
+  // A line that comes near shows two edges where it was one: far too many are thinned out faster.
+  const double patience = too_many > most_too_many ? hasty : paint_feature_count;
+  quantum_ *= std::pow(std::clamp(too_many, 0.5, 2.0), 1.0 / patience);
 }
 
 }  // namespace hogline::vision

@@ -2,8 +2,10 @@
 // tell most of the body's place and direction.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "vision/fit/paint.hpp"
 #include "vision/fit/site_planner.hpp"
 
 namespace hogline::vision {
@@ -12,6 +14,7 @@ namespace hogline::vision {
 struct ChoiceWishes {
   int certain_feature = -1;   ///< this one is to be verified in every frame, however little it tells; -1: none
   int certain_places = 0;     ///< so many of its places at least, where there are as many
+  int least_places = 0;       ///< of every other feature
   bool avoid_hidden = false;  ///< few where the feature was looked for round about and not seen: something hides it
 };
 
@@ -38,7 +41,7 @@ class PlaceChoice {
   double tells(const PlannedSite& site) const;
   void keep_chosen(const std::vector<PlannedSite>& before);
   bool hidden(const PlannedSite& site, const std::vector<PlannedSite>& before) const;
-  double certainty(const std::vector<PlannedSite>& before) const;
+  std::array<double, paint_feature_count> certainty(const std::vector<PlannedSite>& before) const;
 
   double wanted_;
   ChoiceWishes wishes_;

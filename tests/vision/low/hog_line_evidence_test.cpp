@@ -85,6 +85,19 @@ INSTANTIATE_TEST_SUITE_P(
                        s.patches.push_back({{-0.2, 2.4}, {hog_m, hog_m + rules::hog_line_width_m}, red});
                      },
                      "ends within the sheet"},
+        EvidenceCase{"of_dashes",
+                     [](PaintedSheet& s) {
+                       s.hog_line = false;
+                       for (double x = -2.4; x < 2.4; x += 0.5) {
+                         s.patches.push_back({{x, x + 0.35}, {hog_m, hog_m + rules::hog_line_width_m}, red});
+                       }
+                     },
+                     "ends within the sheet"},
+        EvidenceCase{"a_logo_over_the_centre_line_beyond",
+                     [](PaintedSheet& s) {
+                       s.patches.push_back({{-0.6, 0.6}, {hog_m + 0.3, hog_m + 3.0}, blue});
+                     },
+                     ""},
         EvidenceCase{"no_centre_line", [](PaintedSheet& s) { s.centre_line = false; }, "the centre line"}),
     [](const auto& c) { return std::string(c.param.description); });
 

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "tests/support/run_sequence.hpp"
 #include "vision/low_sequence.hpp"
+#include "vision/low_view.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -57,6 +59,86 @@ TEST_P(AnyRun, IsFollowedToItsEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyRun, ::testing::Values(1, 6, 11, 16));
+
+/// Each frame alone and in the sequence, against the truth.
+struct Compared {
+  Sums tracked;
+  Sums alone;
+  Sums tracked_in_sigmas;
+  int lost = 0;
+  int acquired = 0;
+};
+
+Compared compare(const hogline::testing::RunMove& move, int stride) {
+  const RunSequence run(move);
+  LowSequence low(run.setup());
+  LowView view(run.setup());
+  Compared compared;
+  for (int k = 0; k < run.size(); ++k) {
+    const RunFrame frame = run.frame(k);
+    const SheetPosePercept& seen = low.step(frame.bgr, frame.stamp);
+    compared.lost += seen.ok ? 0 : 1;
+    compared.acquired += seen.ok && seen.features.front() == "acquired" ? 1 : 0;
+    if (!seen.ok || k % stride != 0) continue;
+    const double error_m = seen.hog_distance_m - frame.hog_distance_m;
+    compared.tracked.add(error_m);
+    compared.tracked_in_sigmas.add(error_m / seen.hog_distance_sigma_m);
+    if (low.diagnosis().blind) continue;
+    const SheetPosePercept alone = view.acquire(frame.bgr, frame.stamp);
+    if (alone.ok) compared.alone.add(alone.hog_distance_m - frame.hog_distance_m);
+  }
+  return compared;
+}
+
+struct StillCase {
+  const char* description;
+  double hog_distance_m;
+  double speed_mps;
+  double yaw_rate_radps;
+};
+
+// A robot that hardly moves sees the same picture again: what the first one told must not be forgotten.
+TEST(LowRun, ARobotThatStandsCreepsOrTurnsIsMeasuredAsWellAsByFramesAlone) {
+  for (const StillCase& c : {StillCase{"stands far off", 4.2, 0.0, 0.0}, StillCase{"stands near by", 1.4, 0.0, 0.0},
+                             StillCase{"creeps", 2.6, 0.04, 0.0}, StillCase{"turns", 2.2, 0.0, 0.15}}) {
+    for (const std::uint64_t seed : {3}) {
+      SCOPED_TRACE(std::string(c.description) + ", " + std::to_string(seed));
+      hogline::testing::RunMove move = hogline::testing::random_run(seed);
+      move.first_hog_distance_m = c.hog_distance_m;
+      move.speed_mps = c.speed_mps;
+      move.yaw_rate_radps = c.yaw_rate_radps;
+      move.legs = {{0.2, 0.0}};
+      const Compared compared = compare(move, 5);
+      EXPECT_EQ(compared.lost, 0);
+      EXPECT_EQ(compared.acquired, 1) << "one acquisition, the rest is tracked";
+      EXPECT_LT(compared.tracked.rms(), 1.3 * compared.alone.rms() + 0.004);
+      EXPECT_LT(compared.tracked_in_sigmas.rms(), 2.5);
+    }
+  }
+}
+
+TEST(LowRun, IsFollowedFromStandstillToFullSpeedAndThroughBraking) {
+  for (const std::uint64_t seed : {10}) {
+    SCOPED_TRACE(seed);
+    hogline::testing::RunMove move = hogline::testing::random_run(seed);
+    move.speed_mps = 0.0;
+    move.first_hog_distance_m = 4.6;
+    move.legs = {{0.1, 0.0}, {1.5, 0.9}, {0.9, -1.5}, {0.1, 0.0}};
+    const Compared compared = compare(move, 12);
+    EXPECT_EQ(compared.lost, 0);
+    EXPECT_LE(compared.acquired, 3);
+    EXPECT_LT(compared.tracked.rms(), 1.3 * compared.alone.rms() + 0.004);
+    EXPECT_LT(compared.tracked_in_sigmas.rms(), 2.0);
+
+    move.speed_mps = 3.5;
+    move.first_hog_distance_m = 5.0;
+    move.legs = {{0.2, 0.0}, {1.0, -2.5}, {0.1, 0.0}};
+    const Compared braking = compare(move, 12);
+    EXPECT_EQ(braking.lost, 0);
+    EXPECT_LE(braking.acquired, 3);
+    EXPECT_LT(braking.tracked_in_sigmas.rms(), 2.0);
+  }
+}
 
 TEST(LowRun, IsTakenUpAgainAfterFramesThatShowNothing) {
   const RunSequence run(random_run(2));

@@ -144,6 +144,20 @@ TEST(low_view, sees_past_logos_and_reflections_on_the_ice) {
   expect_seen(view.acquire(paint(setup, sheet), Stamp{}), sheet);
 }
 
+TEST(low_view, owns_up_to_a_response_curve_that_is_not_the_rigs) {
+  const Scene scene = load_scene("low/low-13-006");
+  for (const double factor : {0.4545, 2.2}) {
+    SCOPED_TRACE(factor);
+    CameraSetup wrong = scene.setup;
+    wrong.gamma *= factor;
+    LowView view(wrong);
+    const SheetPosePercept seen = view.acquire(scene.image, Stamp{});
+    if (!seen.ok) continue;
+    const double error_m = seen.hog_distance_m - (rules::tee_to_hog_m - scene.body.y_m);
+    EXPECT_LT(std::abs(error_m), 2.5 * seen.hog_distance_sigma_m);
+  }
+}
+
 struct EmptyCase {
   const char* description;
   void (*change)(PaintedSheet&);
