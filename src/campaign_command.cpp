@@ -33,17 +33,6 @@ Turn turn_of(const std::string& word) {
   return word == "ccw" ? Turn::counter_clockwise : Turn::both;
 }
 
-PlanText plan_of(const CampaignOptions& o) {
-  return {.rig = content(o.rig, "rigs/practice.yaml"),
-          .scenario = content(o.scenario, "scenarios/practice.yaml"),
-          .seed = o.seed,
-          .eyes = eyes_of(o.seer),
-          .speed_mps = parse_span(o.speed_mps).value(),
-          .heading_deg = parse_span(o.heading_deg).value(),
-          .spin_radps = parse_span(o.spin_radps).value(),
-          .turn = turn_of(o.curl)};
-}
-
 // FNV-1a of the program's own file: rows of two builds do not belong in one table.
 std::string this_program() {
   std::ifstream stream("/proc/self/exe", std::ios::binary);
@@ -107,6 +96,17 @@ void write(const std::string& path, const std::string& text) {
 std::string number_or_range(const std::string& text) {
   if (parse_span(text)) return {};
   return fmt::format("'{}' is no number and no range LOW..HIGH", text);
+}
+
+PlanText plan_of(const CampaignOptions& o) {
+  return {.rig = content(o.rig, "rigs/practice.yaml"),
+          .scenario = content(o.scenario, "scenarios/practice.yaml"),
+          .seed = o.seed,
+          .eyes = eyes_of(o.seer),
+          .speed_mps = parse_span(o.speed_mps).value(),
+          .heading_deg = parse_span(o.heading_deg).value(),
+          .spin_radps = parse_span(o.spin_radps).value(),
+          .turn = turn_of(o.curl)};
 }
 
 int run_campaign(const CampaignOptions& options) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "src/campaign/plan.hpp"
+
 namespace hogline {
 
 struct CampaignOptions {
@@ -22,6 +24,9 @@ struct CampaignOptions {
 
 /// Empty when `text` is a number or a range of numbers, else what is allowed: a check for the command line.
 std::string number_or_range(const std::string& text);
+
+/// What the options say, with the rig and the scenario read. Throws ConfigError.
+campaign::PlanText plan_of(const CampaignOptions& options);
 
 /// Throws what is missing, with progress on stderr, and writes the summary. Throws ConfigError for wrong use.
 int run_campaign(const CampaignOptions& options);

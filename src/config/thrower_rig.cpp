@@ -220,7 +220,9 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.arm = read_axis(s.section("arm"));
   rig.gyro = read_gyro(s.section("gyro"));
   rig.gyro_port = read_gyro_port(s.section("gyro"));
-  rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
+  rig.looks = {.near = s.section("looks").duration("near_s"),
+               .low = s.section("looks").duration("low_s"),
+               .tracked = s.section("looks").duration("tracked_s")};
   check_looks(rig, document);
   return rig;
 }

@@ -56,7 +56,7 @@ OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig)
   return {robot.rink().history(),
           robot.scenario().sheet.width_m,
           {.near = rig.rig.near_camera->mount, .low = rig.rig.low_camera->mount},
-          practice_quality(),
+          measured_quality(),
           robot.scenario().seed};
 }
 
@@ -81,7 +81,8 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   const Stamp start = robot.rink().now();
   VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera);
   OracleSeer oracle = oracle_of(robot, request.rig);
-  SheetSeer& seer = request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision;
+  WatchedSeer seer(request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision, robot.rink().history(),
+                   request.watch);
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
                    servo::Thrower(request.rig.thrower, request.order, start));
   ThrowJudge judge(request.rig.thrower, robot.scenario(), request.order, start);

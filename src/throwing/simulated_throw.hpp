@@ -11,6 +11,7 @@
 #include "src/throwing/throw_result.hpp"
 #include "src/throwing/thrower_loop.hpp"
 #include "src/throwing/vision_seer.hpp"
+#include "src/throwing/watched_seer.hpp"
 
 namespace hogline {
 
@@ -26,6 +27,7 @@ struct ThrowRequest {
   Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
   int render_threads = 2;
+  LookWatch watch{};  ///< told of every look, beside the truth
 };
 
 /// What there is to show of a throw.
@@ -42,7 +44,7 @@ using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
 /// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
 
-/// Sees on the robot's rink what vision would see on the practice rink.
+/// Sees on the robot's rink what vision would see there (measured_quality()).
 OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig);
 
 /// The devices boot and answer before anybody is asked to throw.

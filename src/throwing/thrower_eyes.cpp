@@ -3,6 +3,13 @@
 #include <utility>
 
 namespace hogline {
+namespace {
+
+Duration time_of(const SheetPosePercept& percept, Duration acquired, Duration tracked) {
+  return percept.ok && !percept.features.empty() && percept.features.front() != "acquired" ? tracked : acquired;
+}
+
+}  // namespace
 
 void ThrowerEyes::look(servo::CameraOrder order, hw::Camera& near_camera, hw::Camera& low_camera, Stamp now,
                        const vision::LowViewPrediction& hint) {
@@ -12,13 +19,13 @@ void ThrowerEyes::look(servo::CameraOrder order, hw::Camera& near_camera, hw::Ca
     if (const auto frame = near_camera.latest(now)) {
       near_pending_ = seer_.near_view(*frame);
       ++near_frames_;
-      done_at_ = now + times_.near;
+      done_at_ = now + time_of(*near_pending_, times_.near, times_.tracked);
     }
   } else if (order == servo::CameraOrder::low) {
     if (const auto frame = low_camera.latest(now)) {
       low_pending_ = seer_.low_view(*frame, hint);
       ++low_frames_;
-      done_at_ = now + times_.low;
+      done_at_ = now + time_of(*low_pending_, times_.low, times_.tracked);
     }
   }
   publish(now);

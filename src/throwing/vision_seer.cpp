@@ -9,14 +9,16 @@ VisionSeer::VisionSeer(const vision::CameraSetup& near_setup, const vision::Came
 
 SheetPosePercept VisionSeer::near_view(const hw::Frame& frame) {
   vision::NearViewSketch sketch;
-  SheetPosePercept percept = near_.acquire(frame.bgr, frame.stamp, &sketch);
+  SheetPosePercept percept = near_.step(frame.bgr, frame.stamp, std::nullopt, &sketch);
   if (percept.ok) near_sight_ = {.frame = frame, .sketch = std::move(sketch), .percept = percept};
   return percept;
 }
 
-SheetPosePercept VisionSeer::low_view(const hw::Frame& frame, const vision::LowViewPrediction& hint) {
+SheetPosePercept VisionSeer::low_view(const hw::Frame& frame, const vision::LowViewPrediction&) {
+  constexpr double not_measured_m = 10.0;
   vision::LowViewSketch sketch;
-  SheetPosePercept percept = low_.acquire(frame.bgr, frame.stamp, hint, &sketch);
+  SheetPosePercept percept = low_.step(frame.bgr, frame.stamp, &sketch);
+  if (percept.ok && low_.diagnosis().blind) percept.sigma.y_m = percept.hog_distance_sigma_m = not_measured_m;
   if (percept.ok) low_sight_ = {.frame = frame, .sketch = std::move(sketch), .percept = percept};
   return percept;
 }

@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "src/throwing/sheet_seer.hpp"
+#include "vision/low_sequence.hpp"
+#include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
 
 namespace hogline {
@@ -16,6 +18,9 @@ struct Sight {
   SheetPosePercept percept;
 };
 
+/// Each camera's frames are one sequence: acquired once, then tracked. Where the hog line has left the low camera's
+/// picture the percept tells direction and offset; its distance is only carried on, and its sigma says that it is no
+/// measurement.
 class VisionSeer final : public SheetSeer {
  public:
   VisionSeer(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup);
@@ -27,8 +32,8 @@ class VisionSeer final : public SheetSeer {
   const std::optional<Sight<vision::LowViewSketch>>& low_sight() const { return low_sight_; }
 
  private:
-  vision::NearView near_;
-  vision::LowView low_;
+  vision::NearSequence near_;
+  vision::LowSequence low_;
   std::optional<Sight<vision::NearViewSketch>> near_sight_;
   std::optional<Sight<vision::LowViewSketch>> low_sight_;
 };
