@@ -34,6 +34,9 @@ struct ThrowerDiagnosis {
   double speed_setpoint_mps = 0.0;
   std::optional<double> yaw_after_alignment_rad;
   std::optional<Stamp> predicted_release;  ///< when the stone's release plane will be crossed
+  std::optional<Stamp> release_ordered;
+  std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
+  std::optional<double> freed_at_speed_mps;  ///< the body's, as believed when the stone was free
 };
 
 /// One throw, from a robot that stands and holds a stone to a robot that stands. Pure: no clock, no thread, no device.

@@ -28,6 +28,10 @@ struct ReleaseConfig {
   double tolerance_m = 0.0;      ///< outside release plane +- tolerance the stone is kept
   double stone_x_m = 0.0;        ///< the held stone's centre in b, ahead of the origin
   double gripper_delay_s = 0.0;  ///< from the command to the stone being free
+  double gripper_delay_sigma_s = 0.0;
+  double drag_mps = 0.0;  ///< by so much the stone is slower than the body that let it go
+  double drag_sigma_mps = 0.0;
+  double rest_hog_distance_m = 0.0;  ///< where the body's origin shall come to rest; negative: beyond the line
 };
 
 /// How old an input may be before the robot stops.
@@ -71,6 +75,7 @@ struct OdometryConfig {
   double scale_sigma = 0.0;             ///< of true over measured distance, before it is learnt
   double scale_drift_per_sqrt_m = 0.0;  ///< wear, slip that changes with the acceleration
   double noise_m_per_sqrt_m = 0.0;      ///< random walk of the travelled distance
+  double speed_delay_s = 0.0;           ///< the wheels' speeds are those of so long before their stamp
 };
 
 /// The run to the release plane, and when a release is still worth it.
@@ -85,10 +90,21 @@ struct RunConfig {
   double spin_tolerance_radps = 0.0;
 };
 
+/// The supervisor's bounds. They are bounds, not standard deviations: beyond them something is wrong.
 struct SafetyConfig {
   double max_yaw_rate_disagreement_radps = 0.0;  ///< between gyro and wheels
   Duration disagreement_time{};                  ///< how long it may last
   double reaction_s = 0.0;                       ///< from the decision to brake to full braking
+  double speed_margin = 0.0;        ///< share of a limit by which a measured or ordered speed may exceed it
+  double odometry_bound = 0.0;      ///< share by which the wheels' distance can be wrong while they roll
+  double look_sigmas = 0.0;         ///< a look at the hog line is off by no more than so many of its sigmas
+  double look_margin_m = 0.0;       ///< ... and this
+  double slip_allowance_m = 0.0;    ///< by so much the wheels may have slipped between two looks
+  double max_travel_m = 0.0;        ///< of the wheels, forward, from arming to the release
+  double max_overrun_m = 0.0;       ///< of the body's origin beyond the hog line
+  double max_tilt_rad = 0.0;        ///< of the body against the ice, as the cameras see it
+  Duration operator_age{};          ///< of the dead-man's switch's state
+  std::array<double, 9> low_cRb{};  ///< low camera's rotation: b-directions to camera directions
 };
 
 /// How long a state may last. A state that lasts longer aborts the throw.

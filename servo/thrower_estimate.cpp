@@ -55,9 +55,11 @@ void ThrowerEstimate::take_wheels(const WheelObservation& wheels, bool standing)
   odometry_ = twist_of({wheels.left_radps, wheels.right_radps}, config_.base);
   resting_s_ = standing && resting(odometry_) ? resting_s_ + dt_s : 0.0;
   if (!on_line()) return;
-  const HeadingEstimate heading = heading_.at(wheels.stamp);
-  hog_distance_->odometry(wheels.stamp, odometry_.forward_mps, heading.yaw_rad);
-  const double scale = hog_distance_->at(wheels.stamp).scale;
+  // Drives average over a window: a speed taken for that of its stamp would show as a wrong scale after each ramp.
+  const Stamp measured = wheels.stamp - from_seconds(config_.odometry.speed_delay_s);
+  const HeadingEstimate heading = heading_.at(measured);
+  hog_distance_->odometry(measured, odometry_.forward_mps, heading.yaw_rad);
+  const double scale = hog_distance_->at(measured).scale;
   lateral_->advance(scale * odometry_.forward_mps, heading.yaw_rad, heading.yaw_sigma_rad, dt_s);
 }
 

@@ -6,7 +6,9 @@
 #include "servo/line_tracking.hpp"
 #include "servo/place_average.hpp"
 #include "servo/release.hpp"
-#include "servo/safety.hpp"
+#include "servo/safety/input_check.hpp"
+#include "servo/safety/latch.hpp"
+#include "servo/safety/turn_agreement.hpp"
 #include "servo/speed_profile.hpp"
 #include "servo/thrower.hpp"
 #include "servo/thrower_estimate.hpp"
@@ -48,6 +50,8 @@ struct Thrower::Impl {
   DriveCommand drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt);
   DriveCommand velocity(const PlanarTwist& twist) const;
   double spin_radps() const;
+  double run_speed_mps() const { return order.speed_mps + config.release.drag_mps; }
+  bool stone_is_free(const ThrowerObservation& observation);
 
   ThrowerConfig config;
   ShotOrder order;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "servo/braking.hpp"
 #include "servo/thrower_impl.hpp"
 
 namespace hogline::servo {
@@ -11,6 +12,7 @@ constexpr double resting_mps = 0.01;
 constexpr double resting_radps = 0.02;
 constexpr auto resting_time = std::chrono::milliseconds(200);
 constexpr double scale_part = 0.2;
+constexpr double delay_sigmas = 4.0;
 constexpr double line_sigmas = 3.0;  // of the place, kept clear of the hog line when braking with the stone
 
 }  // namespace
@@ -23,18 +25,19 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
 
   speed_setpoint_mps = profile->speed_mps(seconds(o.now - history.back().since));
   const HogDistanceEstimate hog = estimate.hog_distance().at(o.now);
-  const double to_release_s = (hog.hog_distance_m - config.release.hog_distance_m) / order.speed_mps;
+  const double to_release_s = (hog.hog_distance_m - config.release.hog_distance_m) / run_speed_mps();
   command.drive = drive(speed_setpoint_mps, o.now, to_release_s, dt);
 
   ReleaseOutlook view = outlook(o, dt);
   abort.set(last_chance_missed(view));
-  view.wanted_speed_mps = order.speed_mps;
+  view.wanted_speed_mps = run_speed_mps();
   const ReleaseDecision decision = decide_release(config.release, config.run, estimate.hog_distance(), view);
   diagnosis.predicted_release = decision.predicted;
   if (decision.verdict == ReleaseVerdict::never) abort.set("release: " + decision.reason);
   if (decision.verdict != ReleaseVerdict::release || abort.reason()) return command;
 
   release_ordered = true;
+  diagnosis.release_ordered = o.now;
   command.gripper.release = true;
   enter(ThrowerState::release, o.now);
   return command;
@@ -69,18 +72,33 @@ std::optional<std::string> Thrower::Impl::last_chance_missed(const ReleaseOutloo
 ThrowerCommand Thrower::Impl::release(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command;
   command.gripper = {true, spin_radps()};
-  command.drive = drive(order.speed_mps, o.now, 0.0, dt);
-  const bool freed = o.now - history.back().since >= from_seconds(config.release.gripper_delay_s);
-  if (!freed || !o.gripper->open) return command;
+  command.drive = drive(run_speed_mps(), o.now, 0.0, dt);
+  if (!stone_is_free(o)) return command;
   released = true;
   enter(ThrowerState::brake, o.now);
   return command;
 }
 
+// By the jaws' own report of their travel; where it does not come, when no jaws take longer. A body that brakes before
+// that takes the stone's speed with it.
+bool Thrower::Impl::stone_is_free(const ThrowerObservation& o) {
+  const Stamp ordered = history.back().since;
+  if (o.gripper->freed_at && *o.gripper->freed_at >= ordered) {
+    diagnosis.measured_delay_s = seconds(*o.gripper->freed_at - ordered);
+    diagnosis.freed_at_speed_mps = estimate.hog_distance().at(*o.gripper->freed_at).speed_mps /
+                                   std::cos(estimate.heading(*o.gripper->freed_at).yaw_rad);
+    return o.gripper->open;
+  }
+  const double longest_s = config.release.gripper_delay_s + delay_sigmas * config.release.gripper_delay_sigma_s;
+  return o.gripper->open && o.now - ordered >= from_seconds(longest_s);
+}
+
 ThrowerCommand Thrower::Impl::brake(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command;
   command.gripper.release = true;
-  speed_setpoint_mps = std::max(0.0, speed_setpoint_mps - config.limits.max_deceleration_mps2 * seconds(dt));
+  const double hog_m = estimate.hog_distance().at(o.now).hog_distance_m;
+  const double braking = braking_mps2(speed_setpoint_mps, hog_m, config.release, config.limits);
+  speed_setpoint_mps = std::max(0.0, speed_setpoint_mps - braking * seconds(dt));
   command.drive = speed_setpoint_mps > 0.0 ? drive(speed_setpoint_mps, o.now, 0.0, dt) : velocity({});
   at_rest = has_come_to_rest(o, dt);
   if (at_rest) enter(ThrowerState::stopped, o.now);
@@ -107,7 +125,7 @@ bool Thrower::Impl::has_come_to_rest(const ThrowerObservation& o, Duration dt) {
 // scale is passed on gradually, as a small part of the allowed acceleration.
 DriveCommand Thrower::Impl::drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt) {
   const double scale = estimate.hog_distance().at(now).scale;
-  const double change = scale_part * config.limits.max_acceleration_mps2 * seconds(dt) / order.speed_mps;
+  const double change = scale_part * config.limits.max_acceleration_mps2 * seconds(dt) / run_speed_mps();
   driven_scale += std::clamp(scale - driven_scale, -change, change);
   const double lateral_m = estimate.lateral().lateral_m();
   const double heading_rad = estimate.heading(now).yaw_rad;

@@ -89,14 +89,14 @@ ThrowerCommand Thrower::Impl::fold(const ThrowerObservation& o, Duration dt) {
   if (!o.arm->folded || !settled || !spinning || !sees) return command;
 
   abort.set(run_does_not_fit(estimate.hog_distance().at(o.now).hog_distance_m));
-  profile.emplace(order.speed_mps, config.limits.max_acceleration_mps2, config.limits.max_jerk_mps3);
+  profile.emplace(run_speed_mps(), config.limits.max_acceleration_mps2, config.limits.max_jerk_mps3);
   tracking.emplace(config.run, config.limits, order.heading_rad);
   enter(ThrowerState::run, o.now);
   return command;
 }
 
 std::optional<std::string> Thrower::Impl::run_does_not_fit(double hog_distance_m) const {
-  const double needed_m = needed_run_m(config, order.speed_mps) * std::cos(order.heading_rad);
+  const double needed_m = needed_run_m(config, run_speed_mps()) * std::cos(order.heading_rad);
   const double at_hand_m = hog_distance_m - config.release.hog_distance_m;
   if (needed_m <= at_hand_m) return std::nullopt;
   return "the run does not fit: " + std::to_string(needed_m) + " m needed, " + std::to_string(at_hand_m) + " m at hand";

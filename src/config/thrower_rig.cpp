@@ -36,10 +36,16 @@ servo::AgeLimits read_ages(const Section& s) {
           .low_view = s.duration("low_view_s")};
 }
 
+std::array<double, 9> rotation_cRb(const vision::Mount& mount) {
+  const Eigen::Matrix3d cRb = vision::bMc(mount).linear().transpose();
+  std::array<double, 9> rows{};
+  for (int i = 0; i < 9; ++i) rows[static_cast<std::size_t>(i)] = cRb(i / 3, i % 3);
+  return rows;
+}
+
 servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& near_mount) {
   servo::AlignmentConfig a;
-  const Eigen::Matrix3d cRb = vision::bMc(near_mount).linear().transpose();
-  for (int i = 0; i < 9; ++i) a.near_cRb[static_cast<std::size_t>(i)] = cRb(i / 3, i % 3);
+  a.near_cRb = rotation_cRb(near_mount);
   a.gain_at_zero_per_s = s.number("gain_at_zero_per_s");
   a.gain_at_infinity_per_s = s.number("gain_at_infinity_per_s");
   a.gain_slope_per_s_rad = s.number("gain_slope_per_s_deg") / (std::numbers::pi / 180.0);
@@ -72,7 +78,24 @@ servo::Deadlines read_deadlines(const Section& s) {
           .brake = s.duration("brake_s")};
 }
 
-servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near_mount) {
+servo::SafetyConfig read_safety(const Section& s, const vision::Mount& low_mount) {
+  return {.max_yaw_rate_disagreement_radps = s.radians("max_yaw_rate_disagreement_degps"),
+          .disagreement_time = s.duration("disagreement_time_s"),
+          .reaction_s = s.number("reaction_s"),
+          .speed_margin = s.number("speed_margin"),
+          .odometry_bound = s.number("odometry_bound"),
+          .look_sigmas = s.number("look_sigmas"),
+          .look_margin_m = s.number("look_margin_m"),
+          .slip_allowance_m = s.number("slip_allowance_m"),
+          .max_travel_m = s.number("max_travel_m"),
+          .max_overrun_m = s.number("max_overrun_m"),
+          .max_tilt_rad = s.radians("max_tilt_deg"),
+          .operator_age = s.duration("operator_age_s"),
+          .low_cRb = rotation_cRb(low_mount)};
+}
+
+servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near_mount,
+                                  const vision::Mount& low_mount) {
   const Section t = root.section("thrower");
   const Section release = root.section("release");
   servo::ThrowerConfig c;
@@ -82,7 +105,11 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   c.release = {.hog_distance_m = release.number("hog_distance_m"),
                .tolerance_m = release.number("tolerance_m"),
                .stone_x_m = release.number("stone_x_m"),
-               .gripper_delay_s = release.number("gripper_delay_s")};
+               .gripper_delay_s = release.number("gripper_delay_s"),
+               .gripper_delay_sigma_s = release.number("gripper_delay_sigma_s"),
+               .drag_mps = release.number("drag_mps"),
+               .drag_sigma_mps = release.number("drag_sigma_mps"),
+               .rest_hog_distance_m = release.number("rest_hog_distance_m")};
   c.ages = read_ages(root.section("ages"));
   c.measure = {.frames = t.section("measure").integer("frames"), .rest = t.section("measure").duration("rest_s")};
   c.alignment = read_alignment(t.section("alignment"), near_mount);
@@ -95,12 +122,10 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   const Section odometry = t.section("odometry");
   c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
                 .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),
-                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m")};
+                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m"),
+                .speed_delay_s = odometry.number("speed_delay_s")};
   c.run = read_run(t.section("run"));
-  const Section safety = t.section("safety");
-  c.safety = {.max_yaw_rate_disagreement_radps = safety.radians("max_yaw_rate_disagreement_degps"),
-              .disagreement_time = safety.duration("disagreement_time_s"),
-              .reaction_s = safety.number("reaction_s")};
+  c.safety = read_safety(t.section("safety"), low_mount);
   c.deadlines = read_deadlines(t.section("deadlines"));
   return c;
 }
@@ -140,7 +165,8 @@ hw::ModbusGripperConfig read_gripper(const Section& s) {
             .activation_deadline = s.duration("activation_deadline_s"),
             .silence_limit = s.duration("silence_limit_s"),
             .close_speed = static_cast<std::uint8_t>(s.integer("close_speed")),
-            .close_force = static_cast<std::uint8_t>(s.integer("close_force"))};
+            .close_force = static_cast<std::uint8_t>(s.integer("close_force")),
+            .freeing_travel = s.integer("freeing_travel")};
   g.belt = read_axis(s.section("belt"));
   g.max_spin_radps = s.number("max_spin_radps");
   return g;
@@ -210,8 +236,7 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   const json root = read_yaml(text, document);
   require_sections(root, document);
   const Section s(root);
-  rig.rig.camera("low");
-  rig.thrower = read_thrower(s, rig.rig.camera("near").mount);
+  rig.thrower = read_thrower(s, rig.rig.camera("near").mount, rig.rig.camera("low").mount);
   check_release(rig.thrower.release, document);
   rig.drive = read_drive(s.section("drive"), document);
   if (s.has("head")) rig.head = read_head(s.section("head"), rig.drive, document);

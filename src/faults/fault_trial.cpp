@@ -144,7 +144,8 @@ void Trial::power_on() {
     detected_ = error->since;
   }
   loop_.emplace(robot_.devices(), ThrowerEyes(seer_, request_.rig.looks),
-                servo::Thrower(request_.rig.thrower, request_.order, now()));
+                servo::Thrower(request_.rig.thrower, request_.order, now()), servo::Supervisor(request_.rig.thrower));
+  loop_->arm(now());
   judge_.emplace(request_.rig.thrower, robot_.scenario(), request_.order, now());
 }
 

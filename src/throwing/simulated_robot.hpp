@@ -7,6 +7,7 @@
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
+#include "hw/operator_switch.hpp"
 #include "hw/sim/rink.hpp"
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
@@ -23,7 +24,10 @@ class SimulatedRobot {
   SimulatedRobot(const SimulatedRobot&) = delete;
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 
-  ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_}; }
+  ThrowerDevices devices() {
+    return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_, operator_switch_, rink_.clock()};
+  }
+  hw::HeldSwitch& operator_switch() { return operator_switch_; }
   hw::sim::Rink& rink() { return rink_; }
   const hw::sim::Scenario& scenario() const { return scenario_; }
   const hw::sim::Rink& rink() const { return rink_; }
@@ -45,6 +49,7 @@ class SimulatedRobot {
   hw::sim::RenderedCamera low_camera_;
   hw::CheckedCamera near_checked_;
   hw::CheckedCamera low_checked_;
+  hw::HeldSwitch operator_switch_;
 };
 
 }  // namespace hogline

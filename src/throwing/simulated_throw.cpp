@@ -84,7 +84,8 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   WatchedSeer seer(request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision, robot.rink().history(),
                    request.watch);
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
-                   servo::Thrower(request.rig.thrower, request.order, start));
+                   servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
+  loop.arm(start);
   ThrowJudge judge(request.rig.thrower, robot.scenario(), request.order, start);
   ThrowOutcome outcome;
   bool fault_waits = request.fault.has_value();

@@ -40,7 +40,7 @@ ThrowerObservation Plant::observe() {
   o.wheels = WheelObservation{bus_stamp, left_radps_, right_radps_, !enabled_, enabled_};
   const double gyro_noise = settings_.gyro_noise_rad_per_sqrt_s / std::sqrt(seconds(period));
   o.gyro = GyroObservation{now_, truth_.yaw_rate_radps + settings_.gyro_bias_radps + noise(gyro_noise), true};
-  o.gripper = GripperObservation{bus_stamp, !jaws_opened(), jaws_opened(), spin_radps_, {}};
+  o.gripper = GripperObservation{bus_stamp, !jaws_opened(), jaws_opened(), spin_radps_, {}, {}};
   if (jaws_opened()) o.gripper->opening_since = release_stamp_;
   o.arm = ArmObservation{bus_stamp, arm_up_ <= 0.0, arm_up_ >= 1.0};
   o.near_view = near_view_;

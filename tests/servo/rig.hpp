@@ -29,7 +29,14 @@ inline ThrowerConfig thrower_config() {
               .max_deceleration_mps2 = 2.0,
               .max_yaw_rate_radps = 0.35,
               .max_yaw_acceleration_radps2 = 1.0};
-  c.release = {.hog_distance_m = 1.0, .tolerance_m = 0.1, .stone_x_m = 0.45, .gripper_delay_s = 0.075};
+  c.release = {.hog_distance_m = 1.0,
+               .tolerance_m = 0.1,
+               .stone_x_m = 0.45,
+               .gripper_delay_s = 0.075,
+               .gripper_delay_sigma_s = 0.003,
+               .drag_mps = 0.0,
+               .drag_sigma_mps = 0.002,
+               .rest_hog_distance_m = -0.5};
   c.ages = {.wheels = 20ms, .gyro = 30ms, .gripper = 150ms, .arm = 300ms, .near_view = 120ms, .low_view = 120ms};
   c.measure = {.frames = 15, .rest = 1s};
   c.alignment = {.near_cRb = camera_rotation(28.0 * degree, 0.0),
@@ -55,7 +62,19 @@ inline ThrowerConfig thrower_config() {
            .heading_tolerance_rad = 0.6 * degree,
            .lateral_tolerance_m = 0.1,
            .spin_tolerance_radps = 0.3};
-  c.safety = {.max_yaw_rate_disagreement_radps = 0.2, .disagreement_time = 150ms, .reaction_s = 0.06};
+  c.safety = {.max_yaw_rate_disagreement_radps = 0.2,
+              .disagreement_time = 150ms,
+              .reaction_s = 0.06,
+              .speed_margin = 0.1,
+              .odometry_bound = 0.03,
+              .look_sigmas = 4.0,
+              .look_margin_m = 0.02,
+              .slip_allowance_m = 0.15,
+              .max_travel_m = 14.0,
+              .max_overrun_m = 5.0,
+              .max_tilt_rad = 3.0 * degree,
+              .operator_age = 300ms,
+              .low_cRb = camera_rotation(20.0 * degree, 0.0)};
   c.deadlines = {.unfold = 6s, .measure = 5s, .align = 8s, .fold = 6s, .run = 10s, .release = 300ms, .brake = 5s};
   return c;
 }

@@ -49,7 +49,8 @@ class Rig {
                                    .activation_deadline = 3s,
                                    .silence_limit = 60ms,
                                    .close_speed = 255,
-                                   .close_force = 128},
+                                   .close_force = 128,
+                                   .freeing_travel = 20},
                           .belt = {.unit = 10, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms},
                           .max_spin_radps = 2.5}),
         arm(session, {.unit = 11, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms}) {}

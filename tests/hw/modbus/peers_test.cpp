@@ -56,7 +56,8 @@ class ForeignGripper : public testing::TestWithParam<Wire> {
                     .activation_deadline = 3s,
                     .silence_limit = 60ms,
                     .close_speed = 255,
-                    .close_force = 128}};
+                    .close_force = 128,
+                    .freeing_travel = 20}};
   Stamp now{};
 };
 

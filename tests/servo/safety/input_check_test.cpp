@@ -1,4 +1,4 @@
-#include "servo/safety.hpp"
+#include "servo/safety/input_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "servo/refusal.hpp"
+#include "servo/safety/latch.hpp"
+#include "servo/safety/turn_agreement.hpp"
 #include "tests/servo/rig.hpp"
 
 namespace hogline::servo::test {
@@ -32,7 +34,7 @@ ThrowerObservation good() {
   o.now = now;
   o.wheels = WheelObservation{now, 1.0, 1.0, false, true};
   o.gyro = GyroObservation{now, 0.01, true};
-  o.gripper = GripperObservation{now, true, false, 0.0, {}};
+  o.gripper = GripperObservation{now, true, false, 0.0, {}, {}};
   o.arm = ArmObservation{now, true, false};
   o.near_view = seen();
   o.low_view = seen();

@@ -1,4 +1,4 @@
-#include "servo/safety.hpp"
+#include "servo/safety/input_check.hpp"
 
 #include <cmath>
 #include <initializer_list>
@@ -96,13 +96,6 @@ std::optional<std::string> bad_input(const ThrowerObservation& o, Duration dt, c
     reason = "gripper: the stone is not held";
   }
   return reason;
-}
-
-std::optional<std::string> TurnAgreement::judge(double gyro_radps, double wheels_radps, Duration dt) {
-  const bool agree = std::abs(gyro_radps - wheels_radps) <= config_.max_yaw_rate_disagreement_radps;
-  disagreeing_ = agree ? Duration::zero() : disagreeing_ + dt;
-  if (disagreeing_ > config_.disagreement_time) return "gyro and wheels disagree on the rate of turn";
-  return std::nullopt;
 }
 
 }  // namespace hogline::servo
