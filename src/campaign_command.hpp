@@ -19,6 +19,10 @@ struct CampaignOptions {
   std::string heading_deg = "-1..1";
   std::string spin_radps = "1..2";
   std::string curl = "both";
+  bool tee_draws = false;
+  std::string without = "nothing";
+  std::string faults;  ///< "all" or a part of a fault's name: faults at random moments in the place of plain throws
+  int per_fault = 20;
   std::string out = "out/campaign";
 };
 

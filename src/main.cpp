@@ -124,7 +124,7 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
 }
 
 void add_throws(CLI::App* app, hogline::CampaignOptions& options) {
-  app->add_option("--throws", options.throws, "how many there shall be")->required()->check(CLI::Range(1, 1000000));
+  app->add_option("--throws", options.throws, "how many there shall be")->check(CLI::Range(1, 1000000));
   app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
   app->add_option("--scenario", options.scenario,
                   "scenario file (YAML), each throw drawn from its ranges; without it the practice rink");
@@ -153,10 +153,22 @@ CLI::App* add_campaign(CLI::App& app, hogline::CampaignOptions& options) {
   campaign->add_option("--seer", options.seer, "who looks: rendered pictures and vision, or an oracle with its errors")
       ->capture_default_str()
       ->check(CLI::IsMember({"oracle", "rendered"}));
+  campaign->add_flag(
+      "--tee-draws", options.tee_draws,
+      "every shot is solved for the far tee on the scenario's ice; --speed and --heading-deg do not count");
+  campaign->add_option("--without", options.without, "leave an ingredient out, to see what it buys")
+      ->check(CLI::IsMember({"refraction", "latency", "visual-alignment", "tracking"}));
+  campaign->add_option("--faults", options.faults,
+                       "instead of plain throws: faults at random moments, all or those with this in their name");
+  campaign->add_option("--per-fault", options.per_fault, "throws for each fault")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   campaign->footer(
       "Examples:\n"
       "  hogline campaign --throws 2000 --jobs 2 --out out/oracle\n"
       "  hogline campaign --throws 50 --seer rendered --jobs 2 --seed 7 --out out/rendered\n"
+      "  hogline campaign --throws 200 --tee-draws --out out/draws\n"
+      "  hogline campaign --faults all --per-fault 20 --jobs 2 --out out/faults\n"
       "A campaign that was stopped goes on where it was when it is called again. The same seed gives the same bytes,\n"
       "however many jobs; DIR/throws.csv has a row a throw.\n"
       "Exit status: 0 every stone was let go in its window, 1 some were not, 2 wrong use or configuration,\n"

@@ -11,6 +11,9 @@ struct LookTimes {
   Duration near{};     ///< the sheet is acquired
   Duration low{};      ///< the hog line is acquired
   Duration tracked{};  ///< either is tracked from the frame before
+  /// False: what was seen is taken for the moment at which it is known, as if nothing took time. Only to show what that
+  /// costs.
+  bool compensated = true;
 };
 
 }  // namespace hogline

@@ -33,6 +33,9 @@ void ThrowerEyes::look(servo::CameraOrder order, hw::Camera& near_camera, hw::Ca
 
 void ThrowerEyes::publish(Stamp now) {
   if (now < done_at_) return;
+  for (auto* pending : {&near_pending_, &low_pending_}) {
+    if (*pending && !times_.compensated) (*pending)->stamp = now;
+  }
   if (near_pending_) near_percept_ = std::exchange(near_pending_, std::nullopt);
   if (low_pending_) low_percept_ = std::exchange(low_pending_, std::nullopt);
 }
