@@ -148,7 +148,7 @@ EstimateUse Thrower::Impl::use() const {
     case ThrowerState::measure:
       return {.standing = true};
     case ThrowerState::align:
-      return {.near_view = true};
+      return {.near_view = config.alignment.method == AlignmentMethod::visual_servoing};
     case ThrowerState::fold:
     case ThrowerState::run:
     case ThrowerState::release:

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "servo/yaw_bias.hpp"
 #include "vision/percepts/stamp.hpp"
 
 namespace hogline::servo {
@@ -42,6 +43,7 @@ struct AgeLimits {
   Duration arm{};
   Duration near_view{};  ///< while measuring and aligning
   Duration low_view{};   ///< while the low view is the source of the distance
+  Duration low_sight{};  ///< ... since it last saw the hog line, where it must be in sight
 };
 
 /// What the robot rests on before it turns.
@@ -50,8 +52,14 @@ struct MeasureConfig {
   Duration rest{};  ///< how long the gyro's bias is learnt at rest, at least
 };
 
+enum class AlignmentMethod {
+  visual_servoing,  ///< the near view closes the loop, the gyro carries it from look to look
+  look_then_gyro,   ///< the paper's: one measurement before the turn, then the gyro alone
+};
+
 /// The turn on the spot. ViSP's adaptive gain: `gain_at_zero` for small errors, `gain_at_infinity` for large ones.
 struct AlignmentConfig {
+  AlignmentMethod method = AlignmentMethod::visual_servoing;
   std::array<double, 9> near_cRb{};  ///< near camera's rotation: b-directions to camera directions, row by row
   double gain_at_zero_per_s = 0.0;
   double gain_at_infinity_per_s = 0.0;
@@ -61,6 +69,7 @@ struct AlignmentConfig {
   Duration settle_time{};                 ///< for this long
   double breakaway_yaw_rate_radps = 0.0;  ///< the slowest ordered turn that is sure to overcome stiction
   double stopping_lag_s = 0.0;            ///< the body turns on for about this long after a turn is no longer ordered
+  YawBiasTable near_yaw_bias{};           ///< of the near view, by a turn on the spot; may be empty
 };
 
 struct GyroConfig {
@@ -80,7 +89,9 @@ struct OdometryConfig {
 
 /// The run to the release plane, and when a release is still worth it.
 struct RunConfig {
-  double hold_distance_m = 0.0;  ///< the shot's speed is reached at least this far before the release plane
+  double sight_from_hog_m = 0.0;  ///< from this distance of b's origin the hog line must be in sight of the low camera,
+  double sight_to_hog_m = 0.0;    ///< to this one
+  double hold_distance_m = 0.0;   ///< the shot's speed is reached at least this far before the release plane
   double heading_gain_per_s = 0.0;
   double lateral_length_m = 0.0;         ///< a lateral offset is run down over this length
   double max_lateral_heading_rad = 0.0;  ///< the heading given up for the offset, at most

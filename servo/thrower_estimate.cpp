@@ -71,13 +71,15 @@ void ThrowerEstimate::take_near_view(const SheetPosePercept& view) {
   if (near_stamp_ && view.stamp == *near_stamp_) return;
   near_stamp_ = view.stamp;
   if (!view.ok || !heading_.started()) return;
-  heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
+  const double yaw_rad = view.body.yaw_rad - yaw_bias(config_.alignment.near_yaw_bias, view.body.yaw_rad);
+  heading_.sheet_yaw(view.stamp, yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
 }
 
 void ThrowerEstimate::take_low_view(const SheetPosePercept& view) {
   if (low_stamp_ && view.stamp == *low_stamp_) return;
   low_stamp_ = view.stamp;
   if (!view.ok || !on_line()) return;
+  last_sight_ = view.stamp;
   heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
   hog_distance_->hog_distance(view.stamp, view.hog_distance_m, view.hog_distance_sigma_m);
   lateral_->correct(view);

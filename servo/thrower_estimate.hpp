@@ -40,6 +40,8 @@ class ThrowerEstimate {
   const HogDistanceFilter& hog_distance() const { return *hog_distance_; }
   const LateralFilter& lateral() const { return *lateral_; }
   bool on_line() const { return hog_distance_.has_value(); }
+  /// Stamp of the newest low view in which the sheet was seen.
+  std::optional<Stamp> last_sight() const { return last_sight_; }
 
   /// Why sight and dead reckoning can not both be right; empty while they can.
   std::optional<std::string> contradiction() const;
@@ -59,6 +61,7 @@ class ThrowerEstimate {
   std::optional<Stamp> wheels_stamp_;
   std::optional<Stamp> near_stamp_;
   std::optional<Stamp> low_stamp_;
+  std::optional<Stamp> last_sight_;
 };
 
 }  // namespace hogline::servo

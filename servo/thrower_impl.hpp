@@ -37,6 +37,8 @@ struct Thrower::Impl {
   ThrowerCommand align(const ThrowerObservation& observation, Duration dt);
   ThrowerCommand fold(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> run_does_not_fit(double hog_distance_m) const;
+  SheetPosePercept near_view(const ThrowerObservation& observation) const;  // its known bias taken off
+  void begin_line(Stamp now, const Place& here);
   double turn_to_heading(Stamp now, Duration dt, bool& settled);
 
   // thrower_running.cpp: the run and after
@@ -51,6 +53,7 @@ struct Thrower::Impl {
   DriveCommand velocity(const PlanarTwist& twist) const;
   double spin_radps() const;
   double run_speed_mps() const { return order.speed_mps + config.release.drag_mps; }
+  std::optional<std::string> out_of_sight(Stamp now, double hog_distance_m);
   bool stone_is_free(const ThrowerObservation& observation);
 
   ThrowerConfig config;
@@ -64,12 +67,14 @@ struct Thrower::Impl {
   std::optional<Stamp> last_now;
 
   PlaceAverage place;                     // measure, align
+  std::optional<Place> measured;          // measure: where the body stood before the turn
   std::optional<YawAlignment> alignment;  // align, fold
   Stamp moved{};                          // align: the last moment a turn was ordered
   std::optional<SpeedProfile> profile;    // run
   std::optional<LineTracking> tracking;   // run, release, brake
   double speed_setpoint_mps = 0.0;
-  double driven_scale = 1.0;  // of the odometry, as passed on to the wheels
+  double driven_scale = 1.0;                // of the odometry, as passed on to the wheels
+  std::optional<Stamp> sight_wanted_since;  // run: the hog line must have been in sight since
   bool release_ordered = false;
   bool released = false;
   Duration at_rest_for{};

@@ -1,6 +1,7 @@
 // The run and what comes after it: run, release, brake, stopped.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "servo/braking.hpp"
 #include "servo/thrower_impl.hpp"
@@ -25,6 +26,7 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
 
   speed_setpoint_mps = profile->speed_mps(seconds(o.now - history.back().since));
   const HogDistanceEstimate hog = estimate.hog_distance().at(o.now);
+  abort.set(out_of_sight(o.now, hog.hog_distance_m));
   const double to_release_s = (hog.hog_distance_m - config.release.hog_distance_m) / run_speed_mps();
   command.drive = drive(speed_setpoint_mps, o.now, to_release_s, dt);
 
@@ -41,6 +43,19 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
   command.gripper.release = true;
   enter(ThrowerState::release, o.now);
   return command;
+}
+
+// A lens that is covered after a good look would else be noticed only when the wheels' word is worth nothing any more.
+std::optional<std::string> Thrower::Impl::out_of_sight(Stamp now, double hog_distance_m) {
+  const bool wanted = hog_distance_m <= config.run.sight_from_hog_m && hog_distance_m >= config.run.sight_to_hog_m;
+  if (!wanted) return std::nullopt;
+  if (!sight_wanted_since) sight_wanted_since = now;
+  const Stamp seen = std::max(*sight_wanted_since, estimate.last_sight().value_or(Stamp{}));
+  if (now - seen <= config.ages.low_sight) return std::nullopt;
+  std::ostringstream text;
+  text << "low view: the hog line must be in sight and has not been seen for " << seconds(now - seen)
+       << " s; check lens, light and people before the camera (run)";
+  return text.str();
 }
 
 ReleaseOutlook Thrower::Impl::outlook(const ThrowerObservation& o, Duration dt) const {

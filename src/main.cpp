@@ -106,6 +106,10 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
   auto* command = app.add_subcommand("throw", "the thrower on the simulated rink: align, run, release");
   add_shot(command, options);
   command->add_flag("--json", options.json_only, "print nothing but the JSON object");
+  command->add_flag("--realtime", options.realtime, "in threads against the wall clock, with the latencies");
+  command->add_option(
+      "--learn", options.learn,
+      "file of what releases have taught of the jaws: read if it is there, and written after the throw");
   command->add_option("--fault", options.fault, "inject a fault: KIND@SECONDS of the run, e.g. camera-freeze@1.0")
       ->check(hogline::known_fault);
   command->add_option("--seer", options.seer, "who looks: vision at rendered pictures, or an oracle with its errors")

@@ -12,6 +12,7 @@
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
+#include "src/throwing/realtime_throw.hpp"
 #include "src/throwing_report.hpp"
 
 namespace hogline {
@@ -75,7 +76,8 @@ ThrowRequest make_request(const ThrowOptions& options) {
 
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  ThrowOutcome outcome = throw_stone(request, StateTeller());
+  ThrowOutcome outcome =
+      options.realtime ? throw_in_real_time(request, StateTeller()) : throw_stone(request, StateTeller());
   outcome.result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_report(options.out, request, outcome);
   return outcome;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <mutex>
 
 #include "hw/sim/truth.hpp"
 
@@ -29,6 +30,7 @@ class WorldHistory {
 
  private:
   Duration kept_;
+  mutable std::mutex mutex_;  ///< cameras may render in another thread than the one that steps the rink
   std::deque<Truth> samples_;
 };
 

@@ -33,7 +33,8 @@ servo::AgeLimits read_ages(const Section& s) {
           .gripper = s.duration("gripper_s"),
           .arm = s.duration("arm_s"),
           .near_view = s.duration("near_view_s"),
-          .low_view = s.duration("low_view_s")};
+          .low_view = s.duration("low_view_s"),
+          .low_sight = s.duration("low_sight_s")};
 }
 
 std::array<double, 9> rotation_cRb(const vision::Mount& mount) {
@@ -43,9 +44,19 @@ std::array<double, 9> rotation_cRb(const vision::Mount& mount) {
   return rows;
 }
 
+servo::YawBiasTable read_yaw_bias(const json& list) {
+  constexpr double deg = std::numbers::pi / 180.0;
+  servo::YawBiasTable table;
+  for (const json& knot : list) table.push_back({knot[0].get<double>() * deg, knot[1].get<double>() * deg});
+  return table;
+}
+
 servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& near_mount) {
   servo::AlignmentConfig a;
+  a.method = s.word("method") == "look_then_gyro" ? servo::AlignmentMethod::look_then_gyro
+                                                  : servo::AlignmentMethod::visual_servoing;
   a.near_cRb = rotation_cRb(near_mount);
+  a.near_yaw_bias = read_yaw_bias(s.raw("near_yaw_bias_deg"));
   a.gain_at_zero_per_s = s.number("gain_at_zero_per_s");
   a.gain_at_infinity_per_s = s.number("gain_at_infinity_per_s");
   a.gain_slope_per_s_rad = s.number("gain_slope_per_s_deg") / (std::numbers::pi / 180.0);
@@ -58,7 +69,9 @@ servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& nea
 }
 
 servo::RunConfig read_run(const Section& s) {
-  return {.hold_distance_m = s.number("hold_distance_m"),
+  return {.sight_from_hog_m = s.number("sight_from_hog_m"),
+          .sight_to_hog_m = s.number("sight_to_hog_m"),
+          .hold_distance_m = s.number("hold_distance_m"),
           .heading_gain_per_s = s.number("heading_gain_per_s"),
           .lateral_length_m = s.number("lateral_length_m"),
           .max_lateral_heading_rad = s.radians("max_lateral_heading_deg"),
@@ -215,6 +228,15 @@ void check_release(const servo::ReleaseConfig& r, const Document& document) {
   }
 }
 
+void check_yaw_bias(const servo::YawBiasTable& table, const Document& document) {
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    if (table[i].estimate_rad > table[i - 1].estimate_rad) continue;
+    const char* key = "thrower.alignment.near_yaw_bias_deg";
+    throw ConfigError(document.file, document.line_of(key), key, fmt::format("knot {}", i + 1),
+                      "the seen angles must ascend");
+  }
+}
+
 // While a look goes on nobody asks the camera: a limit shorter than that would take it for silence.
 void check_looks(const ThrowerRig& rig, const Document& document) {
   for (const auto& [name, look] : {std::pair("near", rig.looks.near), std::pair("low", rig.looks.low)}) {
@@ -238,6 +260,7 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   const Section s(root);
   rig.thrower = read_thrower(s, rig.rig.camera("near").mount, rig.rig.camera("low").mount);
   check_release(rig.thrower.release, document);
+  check_yaw_bias(rig.thrower.alignment.near_yaw_bias, document);
   rig.drive = read_drive(s.section("drive"), document);
   if (s.has("head")) rig.head = read_head(s.section("head"), rig.drive, document);
   rig.modbus = read_modbus(s.section("modbus"), document);

@@ -44,6 +44,9 @@ using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
 /// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
 
+/// The rig as the eyes need it.
+config::ThrowerRig simulated_rig(const ThrowRequest& request);
+
 /// Sees on the robot's rink what vision would see there (measured_quality()).
 OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig);
 

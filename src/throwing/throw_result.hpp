@@ -7,6 +7,7 @@
 
 #include "hw/sim/truth.hpp"
 #include "servo/thrower.hpp"
+#include "src/throwing/latency_record.hpp"
 
 namespace hogline {
 
@@ -36,6 +37,8 @@ struct ThrowResult {
   std::vector<std::string> device_errors;   ///< what each device said of itself, in the order of its coming
   double stop_hog_distance_m = 0.0;         ///< where the robot came to rest
   std::optional<hw::sim::StoneTruth> rest;  ///< where the released stone came to rest, in e
+  std::optional<bool> fault_struck;         ///< of the injected fault; false: the run was over before
+  std::optional<RealtimeFigures> realtime;  ///< of a throw against the wall clock
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
 };

@@ -37,9 +37,16 @@ inline ThrowerConfig thrower_config() {
                .drag_mps = 0.0,
                .drag_sigma_mps = 0.002,
                .rest_hog_distance_m = -0.5};
-  c.ages = {.wheels = 20ms, .gyro = 30ms, .gripper = 150ms, .arm = 300ms, .near_view = 120ms, .low_view = 120ms};
+  c.ages = {.wheels = 20ms,
+            .gyro = 30ms,
+            .gripper = 150ms,
+            .arm = 300ms,
+            .near_view = 120ms,
+            .low_view = 120ms,
+            .low_sight = 500ms};
   c.measure = {.frames = 15, .rest = 1s};
-  c.alignment = {.near_cRb = camera_rotation(28.0 * degree, 0.0),
+  c.alignment = {.method = AlignmentMethod::visual_servoing,
+                 .near_cRb = camera_rotation(28.0 * degree, 0.0),
                  .gain_at_zero_per_s = 4.0,
                  .gain_at_infinity_per_s = 2.0,
                  .gain_slope_per_s_rad = 30.0,
@@ -54,7 +61,9 @@ inline ThrowerConfig thrower_config() {
             .scale_noise_rad_per_sqrt_rad = 1e-3,
             .timing_sigma_s = 2e-3};
   c.odometry = {.scale_sigma = 0.02, .scale_drift_per_sqrt_m = 0.0005, .noise_m_per_sqrt_m = 0.001};
-  c.run = {.hold_distance_m = 0.8,
+  c.run = {.sight_from_hog_m = 4.4,
+           .sight_to_hog_m = 1.7,
+           .hold_distance_m = 0.8,
            .heading_gain_per_s = 8.0,
            .lateral_length_m = 2.0,
            .max_lateral_heading_rad = 1.0 * degree,
