@@ -131,6 +131,7 @@ ThrowRequest Plan::request(const Draw& draw) const {
           .fault = std::nullopt,
           .eyes = text_.eyes,
           .follow_stone = true,
+          .settle = true,
           .render_threads = 1};
 }
 

@@ -13,7 +13,7 @@ config::ThrowerRig simulated_rig(const ThrowRequest& request) {
 }
 
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig) {
-  constexpr int divisor = 5;
+  constexpr int divisor = 16;
   for (auto* camera : {&*rig.rig.near_camera, &*rig.rig.low_camera}) {
     vision::Intrinsics& lens = camera->intrinsics;
     lens.width_px /= divisor;
@@ -64,7 +64,9 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
     recorder.before(now, loop.thrower());
     loop.step(now, period);
     recorder.after(now, loop.thrower(), progress);
-    if (recorder.robot_done(now, loop.thrower()) && !recorder.stone_slides(now)) break;
+    const bool done = recorder.robot_done(now, loop.thrower());
+    if (done && request.settle) robot.rink().settle();
+    if (done && !recorder.stone_slides(now)) break;
   }
   return recorder.outcome(loop, vision);
 }

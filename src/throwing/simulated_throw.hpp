@@ -26,6 +26,7 @@ struct ThrowRequest {
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
+  bool settle = false;       ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
   int render_threads = 2;
   LookWatch watch{};  ///< told of every look, beside the truth
 };
@@ -41,7 +42,7 @@ struct ThrowOutcome {
 /// Called now and then with the simulated time and the state.
 using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
 
-/// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
+/// The same rig with cameras of a sixteenth of the width and height: enough for what is not seen by vision.
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
 
 /// The rig as the eyes need it.
