@@ -32,6 +32,7 @@ struct ThrowerDiagnosis {
   double lateral_m = 0.0;  ///< from the shot's line, left positive
   double speed_mps = 0.0;
   double speed_setpoint_mps = 0.0;
+  int slipping_periods = 0;  ///< control periods in which the wheels spun
   std::optional<double> yaw_after_alignment_rad;
   std::optional<Stamp> predicted_release;  ///< when the stone's release plane will be crossed
   std::optional<Stamp> release_ordered;

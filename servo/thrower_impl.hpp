@@ -9,6 +9,7 @@
 #include "servo/safety/input_check.hpp"
 #include "servo/safety/latch.hpp"
 #include "servo/safety/turn_agreement.hpp"
+#include "servo/slip_watch.hpp"
 #include "servo/speed_profile.hpp"
 #include "servo/thrower.hpp"
 #include "servo/thrower_estimate.hpp"
@@ -53,6 +54,7 @@ struct Thrower::Impl {
   DriveCommand velocity(const PlanarTwist& twist) const;
   double spin_radps() const;
   double run_speed_mps() const { return order.speed_mps + config.release.drag_mps; }
+  void advance_profile(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> out_of_sight(Stamp now, double hog_distance_m);
   bool stone_is_free(const ThrowerObservation& observation);
 
@@ -72,6 +74,9 @@ struct Thrower::Impl {
   Stamp moved{};                          // align: the last moment a turn was ordered
   std::optional<SpeedProfile> profile;    // run
   std::optional<LineTracking> tracking;   // run, release, brake
+  SlipWatch slip;                         // run
+  double profile_s = 0.0;                 // run: how far along the profile
+  double profile_rate = 1.0;              // run: of the profile's time; after a slip it goes on more slowly
   double speed_setpoint_mps = 0.0;
   double driven_scale = 1.0;                // of the odometry, as passed on to the wheels
   std::optional<Stamp> sight_wanted_since;  // run: the hog line must have been in sight since

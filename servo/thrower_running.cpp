@@ -14,7 +14,8 @@ constexpr double resting_radps = 0.02;
 constexpr auto resting_time = std::chrono::milliseconds(200);
 constexpr double scale_part = 0.2;
 constexpr double delay_sigmas = 4.0;
-constexpr double line_sigmas = 3.0;  // of the place, kept clear of the hog line when braking with the stone
+constexpr double rate_after_slip = 0.6;  // of the profile's: 0.6 of its acceleration, 0.36 of its jerk
+constexpr double line_sigmas = 3.0;      // of the place, kept clear of the hog line when braking with the stone
 
 }  // namespace
 
@@ -24,7 +25,7 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
   command.gripper.spin_radps = spin_radps();
   if (!o.arm->folded) abort.set("arm: not folded (run)");
 
-  speed_setpoint_mps = profile->speed_mps(seconds(o.now - history.back().since));
+  advance_profile(o, dt);
   const HogDistanceEstimate hog = estimate.hog_distance().at(o.now);
   abort.set(out_of_sight(o.now, hog.hog_distance_m));
   const double to_release_s = (hog.hog_distance_m - config.release.hog_distance_m) / run_speed_mps();
@@ -43,6 +44,26 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
   command.gripper.release = true;
   enter(ThrowerState::release, o.now);
   return command;
+}
+
+// Wheels that spin do not pull: the set-point waits until they roll again, and then rises more slowly.
+void Thrower::Impl::advance_profile(const ThrowerObservation& o, Duration dt) {
+  slip.wheels(o.wheels->stamp, estimate.odometry().forward_mps * estimate.hog_distance().at(o.now).scale);
+  if (o.low_view && o.low_view->ok) {
+    slip.look(o.low_view->stamp, o.low_view->hog_distance_m, o.low_view->hog_distance_sigma_m);
+  }
+  if (slip.slipping()) {
+    profile_rate = rate_after_slip;
+    ++diagnosis.slipping_periods;
+  } else {
+    profile_s += profile_rate * seconds(dt);
+  }
+  speed_setpoint_mps = profile->speed_mps(profile_s);
+  const double left_m = (profile->distance_m() - profile->travelled_m(profile_s)) / profile_rate;
+  const double at_hand_m = estimate.hog_distance().at(o.now).hog_distance_m - config.release.hog_distance_m;
+  if (slip.ever() && profile_s < profile->duration_s() && left_m > at_hand_m) {
+    abort.set("the wheels have slipped: the speed can not be reached before the release plane any more (run)");
+  }
 }
 
 // A lens that is covered after a good look would else be noticed only when the wheels' word is worth nothing any more.

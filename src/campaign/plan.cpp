@@ -50,8 +50,6 @@ config::ThrowerRig left_out(config::ThrowerRig rig, Without without) {
     case Without::visual_alignment:
       rig.thrower.alignment.method = servo::AlignmentMethod::look_then_gyro;
       break;
-    case Without::tracking:
-      break;  // another seer
   }
   return rig;
 }
@@ -68,15 +66,12 @@ std::string_view to_string(Without without) {
       return "latency";
     case Without::visual_alignment:
       return "visual-alignment";
-    case Without::tracking:
-      return "tracking";
   }
   return "";
 }
 
 std::optional<Without> parse_without(std::string_view word) {
-  for (const Without without :
-       {Without::nothing, Without::refraction, Without::latency, Without::visual_alignment, Without::tracking}) {
+  for (const Without without : {Without::nothing, Without::refraction, Without::latency, Without::visual_alignment}) {
     if (word == to_string(without)) return without;
   }
   return std::nullopt;
@@ -98,7 +93,7 @@ Plan::Plan(PlanText text)
     : text_(std::move(text)),
       rig_(left_out(config::parse_thrower_rig(text_.rig, "rig"), text_.without)),
       scenario_(text_.scenario, "scenario") {
-  const bool in_pictures = text_.without == Without::refraction || text_.without == Without::tracking;
+  const bool in_pictures = text_.without == Without::refraction;
   if (in_pictures && text_.eyes == Eyes::oracle) {
     throw config::ConfigError("command line", 0, "--without", std::string(to_string(text_.without)),
                               "is left out in pictures: needs --seer rendered");

@@ -23,7 +23,6 @@ enum class Without {
   refraction,        ///< vision takes the paint to lie on the surface; rendered pictures only
   latency,           ///< what was seen is taken for the present
   visual_alignment,  ///< one look at the start, then the turn by the gyro alone
-  tracking,          ///< the low view by ViSP's plain vpMeLine; rendered pictures only
 };
 std::string_view to_string(Without without);
 /// Nothing when it is none of the words of to_string().

@@ -127,7 +127,7 @@ SheetPosePercept OracleSeer::see(const hw::Frame& frame, const SightQuality& qua
   percept.hog_distance_sigma_m = knot->y.claimed;
   percept.sheet_width_m = sheet_width_m_ + width_sigma_m * of_frame.normal();
   percept.eMc = vision::row_major(vision::eMb(percept.body) * vision::bMc(mount));
-  percept.features = {eye.last ? "tracked" : "acquired", "oracle"};
+  percept.features = {"oracle"};
   eye.last = frame.stamp;
   return percept;
 }

@@ -125,7 +125,7 @@ ThrowOutcome throw_in_real_time(const ThrowRequest& request, const Progress& pro
   devices_first.reset();
 
   const Stamp start = robot.rink().now();
-  VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera);
+  VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera, Looking::following);
   OracleSeer oracle = oracle_of(robot, request.rig);
   SheetSeer& seer = request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision;
   ThrowRecorder recorder(request, robot, start);

@@ -70,6 +70,8 @@ bool ThrowRecorder::stone_slides(Stamp now) const {
 ThrowOutcome ThrowRecorder::outcome(const ThrowerLoop& loop, const VisionSeer& vision) {
   ThrowOutcome outcome;
   outcome.result = judge_.verdict(robot_.rink().truth(), loop.thrower(), robot_.rink().now());
+  outcome.result.measured_delay_s = loop.thrower().diagnosis().measured_delay_s;
+  outcome.result.freed_at_speed_mps = loop.thrower().diagnosis().freed_at_speed_mps;
   outcome.result.fault_struck = request_.fault ? std::optional<bool>(!fault_waits_) : std::nullopt;
   for (const hw::DeviceError& error : loop.device_errors()) {
     outcome.result.device_errors.push_back(error.device + ": " + to_string(error.kind) + ": " + error.what);

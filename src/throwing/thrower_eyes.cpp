@@ -6,7 +6,9 @@ namespace hogline {
 namespace {
 
 Duration time_of(const SheetPosePercept& percept, Duration acquired, Duration tracked) {
-  return percept.ok && !percept.features.empty() && percept.features.front() != "acquired" ? tracked : acquired;
+  if (!percept.ok || percept.features.empty()) return acquired;
+  const std::string& how = percept.features.front();
+  return how == "tracked" || how == "dead_reckoning" ? tracked : acquired;
 }
 
 }  // namespace

@@ -18,12 +18,15 @@ struct Sight {
   SheetPosePercept percept;
 };
 
-/// Each camera's frames are one sequence: acquired once, then tracked. Where the hog line has left the low camera's
-/// picture the percept tells direction and offset; its distance is only carried on, and its sigma says that it is no
-/// measurement.
+/// Whether each frame is looked at by itself, or followed from the frame before at a fraction of the cost.
+enum class Looking { afresh, following };
+
+/// Followed frames whose hog line has left the low camera's picture tell direction and offset; their distance is only
+/// carried on, and its sigma says that it is no measurement.
 class VisionSeer final : public SheetSeer {
  public:
-  VisionSeer(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup);
+  VisionSeer(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup,
+             Looking looking = Looking::afresh);
 
   SheetPosePercept near_view(const hw::Frame& frame) override;
   SheetPosePercept low_view(const hw::Frame& frame, const vision::LowViewPrediction& hint) override;
@@ -32,8 +35,11 @@ class VisionSeer final : public SheetSeer {
   const std::optional<Sight<vision::LowViewSketch>>& low_sight() const { return low_sight_; }
 
  private:
-  vision::NearSequence near_;
-  vision::LowSequence low_;
+  Looking looking_;
+  vision::NearView near_;
+  vision::LowView low_;
+  vision::NearSequence near_sequence_;
+  vision::LowSequence low_sequence_;
   std::optional<Sight<vision::NearViewSketch>> near_sight_;
   std::optional<Sight<vision::LowViewSketch>> low_sight_;
 };

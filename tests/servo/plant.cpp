@@ -131,7 +131,8 @@ void Plant::move(double dt_s) {
   const double radius = config_.base.wheel_radius_m * (1.0 + settings_.radius_error);
   const double left = radius * (1.0 - settings_.radius_difference / 2.0) * left_radps_;
   const double right = radius * (1.0 + settings_.radius_difference / 2.0) * right_radps_;
-  truth_.speed_mps = (left + right) / 2.0;
+  const double pull = settings_.grip_mps2 * dt_s;
+  truth_.speed_mps += std::clamp((left + right) / 2.0 - truth_.speed_mps, -pull, pull);
   const double keep = std::exp(-dt_s / disturbance_time_s);
   wander_ = keep * wander_ + noise(std::sqrt(1.0 - keep * keep));
   truth_.yaw_rate_radps =
