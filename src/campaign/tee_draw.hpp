@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hw/sim/scenario.hpp"
+#include "hw/sim/truth.hpp"
 #include "servo/shot.hpp"
 
 namespace hogline::campaign {
