@@ -58,7 +58,7 @@ void ThrowerEstimate::take_wheels(const WheelObservation& wheels, bool standing)
   // Drives average over a window: a speed taken for that of its stamp would show as a wrong scale after each ramp.
   const Stamp measured = wheels.stamp - from_seconds(config_.odometry.speed_delay_s);
   const HeadingEstimate heading = heading_.at(measured);
-  hog_distance_->odometry(measured, odometry_.forward_mps, heading.yaw_rad);
+  hog_distance_->odometry(measured, odometry_.forward_mps, heading.yaw_rad, slipping_);
   const double scale = hog_distance_->at(measured).scale;
   lateral_->advance(scale * odometry_.forward_mps, heading.yaw_rad, heading.yaw_sigma_rad, dt_s);
 }

@@ -52,6 +52,7 @@ void Thrower::Impl::advance_profile(const ThrowerObservation& o, Duration dt) {
   if (o.low_view && o.low_view->ok) {
     slip.look(o.low_view->stamp, o.low_view->hog_distance_m, o.low_view->hog_distance_sigma_m);
   }
+  estimate.wheels_slip(slip.slipping());
   if (slip.slipping()) {
     profile_rate = rate_after_slip;
     ++diagnosis.slipping_periods;

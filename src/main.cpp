@@ -1,12 +1,15 @@
+#include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
 #include "src/board_command.hpp"
 #include "src/campaign_command.hpp"
 #include "src/config/config_error.hpp"
+#include "src/config/nearest_word.hpp"
 #include "src/demo_command.hpp"
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
@@ -53,6 +56,7 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return pose;
@@ -68,6 +72,7 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
       "Prints one JSON object a line, places in metres from the tee of the house in view.\n"
       "Example:\n"
       "  hogline stones --rig rig.yaml frame.jpg\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
   return stones;
 }
@@ -121,6 +126,7 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
       "Examples:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
       "  hogline throw --from out/campaign/throws.csv:17\n"
+      "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves.\n"
       "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
       "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
@@ -235,6 +241,19 @@ CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
   return faults;
 }
 
+// The parser itself would only say that a word was not expected.
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::ranges::find(known, argv[1]) != known.end()) return;
+  const std::string meant = hogline::config::nearest_word(argv[1], known);
+  throw hogline::config::ConfigError(
+      "command line", 0, "subcommand", argv[1],
+      fmt::format("unknown; {}there are {}", meant.empty() ? "" : "did you mean " + meant + "? ",
+                  fmt::join(known, ", ")));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -259,6 +278,7 @@ int run(int argc, char** argv) {
   hogline::CampaignOptions sights_options;
   sights_options.out = "out/sights";
   const auto* sights = add_sights(app, sights_options);
+  check_subcommand(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -119,6 +119,7 @@ ThrowRequest make_request(const ThrowOptions& options) {
 }
 
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request) {
+  fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   const auto begin = std::chrono::steady_clock::now();
   ThrowOutcome outcome =
       options.realtime ? throw_in_real_time(request, StateTeller()) : throw_stone(request, StateTeller());

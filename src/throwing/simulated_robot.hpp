@@ -12,6 +12,7 @@
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
 #include "src/throwing/rink_gyro_line.hpp"
+#include "src/throwing/rink_modbus_line.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
@@ -40,6 +41,7 @@ class SimulatedRobot {
   hw::sim::Scenario scenario_;
   hw::sim::Rink rink_;
   hw::TwoWheelDrive drive_;
+  RinkModbusLine modbus_line_;
   hw::ModbusSession session_;
   hw::ModbusGripper gripper_;
   hw::ModbusArm arm_;

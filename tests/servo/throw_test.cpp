@@ -136,6 +136,8 @@ TEST(Throw, SlipperyIceMakesTheRampGentlerOrEndsTheThrowBeforeTheLine) {
   for (const double grip_mps2 : {0.9, 0.8, 0.7, 0.5, 0.25}) {
     PlantSettings settings = plain_settings(2);
     settings.grip_mps2 = grip_mps2;
+    settings.low_hog_sigma_m = 0.004;
+    settings.visible_from_m = 10.5;
     ShotOrder order = draw();
     const Outcome o = throw_stone(thrower_config(), order, settings);
     ASSERT_TRUE(o.finished) << grip_mps2;

@@ -42,7 +42,7 @@ TEST(YawBias, IsFoundByTurningThereAndBackAndTakenOff) {
   for (const double gyro_bias : {0.0, 20.0 * degree / 3600.0, -0.01 * degree}) {
     const Turn there{.bias_of_true = bias, .gyro_bias_radps = gyro_bias, .look_sigma_rad = 0.005 * degree};
     const double reference = bias(0.0);
-    const YawBiasCalibration c = calibrate_yaw_bias(turn(there), 9, reference, reference);
+    const YawBiasCalibration c = calibrate_yaw_bias(turn(there), 17, reference, reference);
     ASSERT_TRUE(c.ok) << c.reason;
     EXPECT_NEAR(c.gyro_bias_radps, gyro_bias, 0.001 * degree);
     EXPECT_LT(c.residual_rad, 0.007 * degree);

@@ -21,7 +21,9 @@ TEST(RealtimeThrow, ends_with_a_good_throw_or_a_reason_and_never_beyond_the_rule
   const ThrowResult r = throw_in_real_time(request, {}).result;
   EXPECT_TRUE(r.ok || r.abort) << result_line(r);
   EXPECT_EQ(r.states.back().name, "stopped");
-  if (r.release) EXPECT_NEAR(r.release->hog_distance_m, 0.5, request.rig.thrower.release.tolerance_m);
+  if (r.release) {
+    EXPECT_NEAR(r.release->hog_distance_m, 0.5, request.rig.thrower.release.tolerance_m);
+  }
   ASSERT_TRUE(r.realtime);
   EXPECT_GT(r.realtime->periods, 100U);
   EXPECT_LE(r.realtime->frame_to_command_p50_ms, r.realtime->frame_to_command_p99_ms);

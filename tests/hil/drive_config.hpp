@@ -10,6 +10,6 @@ namespace hogline::hil {
 hw::TwoWheelDriveConfig patient_drive_config();
 
 /// Filters, own identifiers and one set-point at a time, as a robot's bus has them.
-hw::SocketCanConfig robot_bus_config(std::string interface);
+hw::SocketCanConfig wheels_bus_config(const std::string& interface);
 
 }  // namespace hogline::hil
