@@ -111,6 +111,13 @@ ThrowerCommand Thrower::Impl::fold(const ThrowerObservation& o, Duration dt) {
 std::optional<std::string> Thrower::Impl::run_does_not_fit(double hog_distance_m) const {
   const double needed_m = needed_run_m(config, run_speed_mps()) * std::cos(order.heading_rad);
   const double at_hand_m = hog_distance_m - config.release.hog_distance_m;
+  const SpeedProfile ramp(run_speed_mps(), config.limits.max_acceleration_mps2, config.limits.max_jerk_mps3);
+  const double lasts_s =
+      ramp.duration_s() + (at_hand_m / std::cos(order.heading_rad) - ramp.distance_m()) / run_speed_mps();
+  if (lasts_s > seconds(config.deadlines.run)) {
+    return "the run would last " + std::to_string(lasts_s) + " s, longer than its deadline of " +
+           std::to_string(seconds(config.deadlines.run)) + " s";
+  }
   if (needed_m <= at_hand_m) return std::nullopt;
   return "the run does not fit: " + std::to_string(needed_m) + " m needed, " + std::to_string(at_hand_m) + " m at hand";
 }

@@ -57,6 +57,7 @@ servo::ReleaseFeedback feedback_of(const ThrowResult& result, const servo::ShotO
 }
 
 void keep_lesson(const std::string& path, const ThrowRequest& request, const ThrowResult& result) {
+  if (!result.release) return;  // nothing was let go: nothing was learnt
   const servo::ReleaseKnowledge before = known(path, request.rig.thrower.release);
   const auto lesson = servo::learn(before, feedback_of(result, request.order, request.scenario.seed));
   if (!lesson.refused.empty()) fmt::print(stderr, "not learnt: {}\n", lesson.refused);
@@ -125,6 +126,9 @@ ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request)
       options.realtime ? throw_in_real_time(request, StateTeller()) : throw_stone(request, StateTeller());
   outcome.result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_report(options.out, request, outcome);
+  if (outcome.result.fault_struck == false) {
+    fmt::print(stderr, "the fault never struck: there was no run, or it was over before\n");
+  }
   if (!options.learn.empty()) keep_lesson(options.learn, request, outcome.result);
   return outcome;
 }

@@ -16,8 +16,9 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr Duration rink_step = std::chrono::milliseconds(1);
 constexpr int rink_priority = 20;
-constexpr int device_priority = 15;            // control waits for the Modbus devices' answers
-constexpr int control_priority = 10;           // a rink that stands still has no news for control
+constexpr int device_priority = 15;   // control waits for the Modbus devices' answers
+constexpr int control_priority = 10;  // a rink that stands still has no news for control
+constexpr int vision_priority = 1;
 constexpr std::uint32_t velocity_pdo = 0x200;  // RPDO1 and its node (CiA 301, predefined connection set)
 
 /// The wall clock, in the rink's time.
@@ -137,7 +138,7 @@ ThrowOutcome throw_in_real_time(const ThrowRequest& request, const Progress& pro
   std::mutex devices;
   std::optional<RinkThread> rink(std::in_place, robot.rink(), clock, devices);
   std::optional<VisionThread> looking(std::in_place, seer, robot.devices().near_camera, robot.devices().low_camera,
-                                      clock);
+                                      clock, [] { run_first(vision_priority); });
   const ThrowerDevices d = robot.devices();
   const LookTimes no_wait{};  // a look that comes out of its thread is done
   ThrowerLoop loop(

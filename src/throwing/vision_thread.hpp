@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -19,7 +20,9 @@ namespace hogline {
 /// else meanwhile.
 class VisionThread {
  public:
-  VisionThread(SheetSeer& seer, hw::Camera& near_camera, hw::Camera& low_camera, const hw::Clock& clock);
+  /// `at_begin` is called in the thread before anything else, e.g. to set its priority.
+  VisionThread(SheetSeer& seer, hw::Camera& near_camera, hw::Camera& low_camera, const hw::Clock& clock,
+               std::function<void()> at_begin = {});
   ~VisionThread();
   VisionThread(const VisionThread&) = delete;
   VisionThread& operator=(const VisionThread&) = delete;
@@ -73,6 +76,7 @@ class VisionThread {
   void run(const std::stop_token& stop);
 
   SheetSeer& seer_;
+  const hw::Clock& clock_;
   Mailbox near_;
   Mailbox low_;
   MailboxSeer mailbox_seer_;
