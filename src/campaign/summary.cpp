@@ -141,7 +141,7 @@ std::string markdown(const Summary& s) {
                    verdict(m, x));
   }
   if (s.along_m.count > 0) text += draws_table(s);
-  text += fmt::format("\nAborts: {}.\n", s.aborts.empty() ? "none" : "");
+  text += s.aborts.empty() ? "\nAborts: none.\n" : "\nAborts:\n\n";
   for (const Count& c : s.aborts) text += fmt::format("- {}: {}\n", c.what, listed(c.throws));
   return text;
 }
