@@ -17,6 +17,7 @@
 #include "src/config/strict_yaml.hpp"
 #include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
+#include "src/faults/random_faults.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -31,17 +32,6 @@ std::string content(const std::string& path, const char* embedded) {
 Turn turn_of(const std::string& word) {
   if (word == "cw") return Turn::clockwise;
   return word == "ccw" ? Turn::counter_clockwise : Turn::both;
-}
-
-PlanText plan_of(const CampaignOptions& o) {
-  return {.rig = content(o.rig, "rigs/practice.yaml"),
-          .scenario = content(o.scenario, "scenarios/practice.yaml"),
-          .seed = o.seed,
-          .eyes = eyes_of(o.seer),
-          .speed_mps = parse_span(o.speed_mps).value(),
-          .heading_deg = parse_span(o.heading_deg).value(),
-          .spin_radps = parse_span(o.spin_radps).value(),
-          .turn = turn_of(o.curl)};
 }
 
 // FNV-1a of the program's own file: rows of two builds do not belong in one table.
@@ -109,14 +99,57 @@ std::string number_or_range(const std::string& text) {
   return fmt::format("'{}' is no number and no range LOW..HIGH", text);
 }
 
+namespace {
+
+int run_faults_at_random(const CampaignOptions& options) {
+  check_folder(options.out);
+  auto chosen = faults::faults_of_any_moment();
+  if (options.faults != "all") {
+    std::erase_if(chosen, [&](const auto* fault) { return fault->name.find(options.faults) == std::string::npos; });
+  }
+  if (chosen.empty()) {
+    throw config::ConfigError("command line", 0, "--faults", options.faults,
+                              "must be all, or a part of a fault's name");
+  }
+  const int count = static_cast<int>(chosen.size()) * options.per_fault;
+  int done = 0;
+  const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, [&] {
+    if (++done % 50 == 0 || done == count) fmt::print(stderr, "{} of {} throws with a fault\n", done, count);
+  });
+  write(options.out + "/faults.csv", faults::strikes_csv(strikes));
+  const std::string page = faults::strikes_page(strikes);
+  write(options.out + "/faults.md", page);
+  fmt::print("{}", page);
+  return faults::safe(strikes) ? ExitStatus::success : ExitStatus::not_achieved;
+}
+
+}  // namespace
+
+PlanText plan_of(const CampaignOptions& o) {
+  return {.rig = content(o.rig, "rigs/practice.yaml"),
+          .scenario = content(o.scenario, "scenarios/practice.yaml"),
+          .seed = o.seed,
+          .eyes = eyes_of(o.seer),
+          .speed_mps = parse_span(o.speed_mps).value(),
+          .heading_deg = parse_span(o.heading_deg).value(),
+          .spin_radps = parse_span(o.spin_radps).value(),
+          .turn = turn_of(o.curl),
+          .tee_draws = o.tee_draws,
+          .without = parse_without(o.without).value()};
+}
+
 int run_campaign(const CampaignOptions& options) {
+  if (!options.faults.empty()) return run_faults_at_random(options);
+  if (options.throws < 1) {
+    throw config::ConfigError("command line", 0, "--throws", fmt::format("{}", options.throws), "must be 1 or more");
+  }
   const Plan plan(plan_of(options));
   Folder folder(options.out, plan, this_program());
   const int there = static_cast<int>(folder.rows().size());
   if (there > 0) fmt::print(stderr, "{} throws are in {} already\n", there, options.out);
   throw_missing(plan, options.throws, options.jobs, folder, ProgressTeller(there, options.throws));
 
-  const Summary summary = summarise(folder.rows());
+  const Summary summary = summarise(folder.rows(), options.tee_draws);
   write(options.out + "/summary.md", markdown(summary));
   write(options.out + "/summary.json", json(summary));
   save_drawing(options.out, "distributions", distributions(folder.rows()));

@@ -15,6 +15,7 @@
 #include "src/exit_status.hpp"
 #include "src/faults_command.hpp"
 #include "src/pose_command.hpp"
+#include "src/sights_command.hpp"
 #include "src/stones_command.hpp"
 #include "src/throw_command.hpp"
 
@@ -132,43 +133,71 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
   return command;
 }
 
+void add_throws(CLI::App* app, hogline::CampaignOptions& options) {
+  app->add_option("--throws", options.throws, "how many there shall be")->check(CLI::Range(1, 1000000));
+  app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
+  app->add_option("--scenario", options.scenario,
+                  "scenario file (YAML), each throw drawn from its ranges; without it the practice rink");
+  app->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  app->add_option("--seed", options.seed, "of the whole campaign, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  app->add_option("--speed", options.speed_mps, "of the stones at release, m/s: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  app->add_option("--heading-deg", options.heading_deg, "of the shots' lines: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  app->add_option("--spin", options.spin_radps, "the stones' rate of turn, rad/s: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  app->add_option("--curl", options.curl, "the stones' turn seen from above")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cw", "ccw", "both"}));
+  app->add_option("--out", options.out, "folder for tables, summary and plots")->capture_default_str();
+}
+
 CLI::App* add_campaign(CLI::App& app, hogline::CampaignOptions& options) {
   auto* campaign = app.add_subcommand("campaign", "many throws on the simulated rink, as a table and a summary");
-  campaign->add_option("--throws", options.throws, "how many there shall be")
-      ->required()
-      ->check(CLI::Range(1, 1000000));
-  campaign->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
-  campaign->add_option("--scenario", options.scenario,
-                       "scenario file (YAML), each throw drawn from its ranges; without it the practice rink");
+  add_throws(campaign, options);
   campaign->add_option("--seer", options.seer, "who looks: rendered pictures and vision, or an oracle with its errors")
       ->capture_default_str()
       ->check(CLI::IsMember({"oracle", "rendered"}));
-  campaign->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
-  campaign->add_option("--seed", options.seed, "of the whole campaign, a whole number from 0")
+  campaign->add_flag(
+      "--tee-draws", options.tee_draws,
+      "every shot is solved for the far tee on the scenario's ice; --speed and --heading-deg do not count");
+  campaign->add_option("--without", options.without, "leave an ingredient out, to see what it buys")
+      ->check(CLI::IsMember({"refraction", "latency", "visual-alignment"}));
+  campaign->add_option("--faults", options.faults,
+                       "instead of plain throws: faults at random moments, all or those with this in their name");
+  campaign->add_option("--per-fault", options.per_fault, "throws for each fault")
       ->capture_default_str()
-      ->check(whole_number);
-  campaign->add_option("--speed", options.speed_mps, "of the stones at release, m/s: a number or LOW..HIGH")
-      ->capture_default_str()
-      ->check(hogline::number_or_range);
-  campaign->add_option("--heading-deg", options.heading_deg, "of the shots' lines: a number or LOW..HIGH")
-      ->capture_default_str()
-      ->check(hogline::number_or_range);
-  campaign->add_option("--spin", options.spin_radps, "the stones' rate of turn, rad/s: a number or LOW..HIGH")
-      ->capture_default_str()
-      ->check(hogline::number_or_range);
-  campaign->add_option("--curl", options.curl, "the stones' turn seen from above")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"cw", "ccw", "both"}));
-  campaign->add_option("--out", options.out, "folder for the table, the summary and the plots")->capture_default_str();
+      ->check(CLI::Range(1, 100000));
   campaign->footer(
       "Examples:\n"
       "  hogline campaign --throws 2000 --jobs 2 --out out/oracle\n"
       "  hogline campaign --throws 50 --seer rendered --jobs 2 --seed 7 --out out/rendered\n"
+      "  hogline campaign --throws 200 --tee-draws --out out/draws\n"
+      "  hogline campaign --faults all --per-fault 20 --jobs 2 --out out/faults\n"
       "A campaign that was stopped goes on where it was when it is called again. The same seed gives the same bytes,\n"
       "however many jobs; DIR/throws.csv has a row a throw.\n"
       "Exit status: 0 every stone was let go in its window, 1 some were not, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return campaign;
+}
+
+CLI::App* add_sights(CLI::App& app, hogline::CampaignOptions& options) {
+  auto* sights =
+      app.add_subcommand("sights", "how well vision sees on rendered throws: the oracle's figures, measured");
+  add_throws(sights, options);
+  sights->footer(
+      "Example:\n"
+      "  hogline sights --throws 24 --jobs 2 --scenario config/scenarios/anywhere.yaml --out out/sights\n"
+      "DIR/sights.csv has a row a look, DIR/oracle.yaml what the oracle of `campaign` is made of; the program carries\n"
+      "config/oracles/measured.yaml.\n"
+      "Exit status: 0 measured, 1 too little was seen, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  return sights;
 }
 
 CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
@@ -246,6 +275,9 @@ int run(int argc, char** argv) {
   const auto* faults = add_faults(app, faults_options);
   hogline::CampaignOptions campaign_options;
   const auto* campaign = add_campaign(app, campaign_options);
+  hogline::CampaignOptions sights_options;
+  sights_options.out = "out/sights";
+  const auto* sights = add_sights(app, sights_options);
   check_subcommand(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -259,6 +291,7 @@ int run(int argc, char** argv) {
   if (*doctor) return hogline::run_doctor(doctor_options);
   if (*faults) return hogline::run_faults(faults_options);
   if (*campaign) return hogline::run_campaign(campaign_options);
+  if (*sights) return hogline::run_sights(sights_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }

@@ -39,6 +39,10 @@ class Rink {
   /// Advances by one control period. Precondition: span > 0.
   void step(Duration span);
 
+  /// Lets released stones come to rest while everything else, and the clock, stands still. For throws whose robot is
+  /// done.
+  void settle() { world_.settle(); }
+
   const Clock& clock() const { return clock_; }
   Stamp now() const { return clock_.now(); }
   Stamp start() const { return start_; }

@@ -107,6 +107,12 @@ void World::release() {
                                  .yaw_rad = truth_.body.yaw_rad};
 }
 
+void World::settle() {
+  if (truth_.held) return;
+  const auto any_moves = [&] { return moves(truth_.stone) || std::ranges::any_of(truth_.others, moves); };
+  while (any_moves()) slide_stones(seconds(longest_step));
+}
+
 void World::detect_touch() {
   if (truth_.burned || !truth_.release) return;
   const double dx = truth_.stone.x_m - truth_.body.x_m;

@@ -25,6 +25,9 @@ class World {
   void step(const WorldInputs& inputs, Stamp until);
   const Truth& truth() const { return truth_; }
 
+  /// Lets every stone that slides come to rest, in no time: nothing else moves, no time passes.
+  void settle();
+
  private:
   void substep(const WorldInputs& inputs, Duration span);
   void release();

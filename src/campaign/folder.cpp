@@ -46,6 +46,8 @@ ordered_json options_of(const PlanText& text, const std::string& program) {
           {"heading-deg", to_string(text.heading_deg)},
           {"spin", to_string(text.spin_radps)},
           {"curl", to_string(text.turn)},
+          {"tee-draws", text.tee_draws},
+          {"without", to_string(text.without)},
           {"program", program}};
 }
 
@@ -99,7 +101,9 @@ PlanText read_plan(const std::string& path) {
             .speed_mps = span_of(options, "speed"),
             .heading_deg = span_of(options, "heading-deg"),
             .spin_radps = span_of(options, "spin"),
-            .turn = turn_of(options.at("curl").get<std::string>())};
+            .turn = turn_of(options.at("curl").get<std::string>()),
+            .tee_draws = options.at("tee-draws").get<bool>(),
+            .without = parse_without(options.at("without").get<std::string>()).value()};
   } catch (const ConfigError&) {
     throw;
   } catch (const std::exception& e) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "hw/sim/mixed_bits.hpp"
+#include "src/campaign/tee_draw.hpp"
 #include "src/config/config_error.hpp"
 
 namespace hogline::campaign {
@@ -33,7 +34,48 @@ servo::Curl curl_of(Turn turn, double share) {
   return turn == Turn::clockwise ? servo::Curl::clockwise : servo::Curl::counter_clockwise;
 }
 
+config::ThrowerRig left_out(config::ThrowerRig rig, Without without) {
+  switch (without) {
+    case Without::nothing:
+      break;
+    case Without::refraction:
+      for (auto* camera : {&*rig.rig.near_camera, &*rig.rig.low_camera}) {
+        camera->ice.paint_depth_m = 0.0;
+        camera->paint_depth_sigma_m = 0.0;
+      }
+      break;
+    case Without::latency:
+      rig.looks.compensated = false;
+      break;
+    case Without::visual_alignment:
+      rig.thrower.alignment.method = servo::AlignmentMethod::look_then_gyro;
+      break;
+  }
+  return rig;
+}
+
 }  // namespace
+
+std::string_view to_string(Without without) {
+  switch (without) {
+    case Without::nothing:
+      return "nothing";
+    case Without::refraction:
+      return "refraction";
+    case Without::latency:
+      return "latency";
+    case Without::visual_alignment:
+      return "visual-alignment";
+  }
+  return "";
+}
+
+std::optional<Without> parse_without(std::string_view word) {
+  for (const Without without : {Without::nothing, Without::refraction, Without::latency, Without::visual_alignment}) {
+    if (word == to_string(without)) return without;
+  }
+  return std::nullopt;
+}
 
 std::string_view to_string(Turn turn) {
   switch (turn) {
@@ -48,7 +90,14 @@ std::string_view to_string(Turn turn) {
 }
 
 Plan::Plan(PlanText text)
-    : text_(std::move(text)), rig_(config::parse_thrower_rig(text_.rig, "rig")), scenario_(text_.scenario, "scenario") {
+    : text_(std::move(text)),
+      rig_(left_out(config::parse_thrower_rig(text_.rig, "rig"), text_.without)),
+      scenario_(text_.scenario, "scenario") {
+  const bool in_pictures = text_.without == Without::refraction;
+  if (in_pictures && text_.eyes == Eyes::oracle) {
+    throw config::ConfigError("command line", 0, "--without", std::string(to_string(text_.without)),
+                              "is left out in pictures: needs --seer rendered");
+  }
   check_span("--speed", text_.speed_mps, least_speed_mps, rig_.thrower.limits.max_speed_mps,
              "m/s (limits.max_speed_mps)");
   check_span("--heading-deg", text_.heading_deg, -most_heading_deg, most_heading_deg, "degrees");
@@ -62,6 +111,11 @@ Draw Plan::draw(int number) const {
                 .heading_rad = text_.heading_deg.at(share_of(draw.seed, Part::heading)) * deg,
                 .curl = curl_of(text_.turn, share_of(draw.seed, Part::turn)),
                 .spin_radps = text_.spin_radps.at(share_of(draw.seed, Part::spin))};
+  if (text_.tee_draws) {
+    const servo::ReleaseConfig& release = rig_.thrower.release;
+    draw.order = tee_draw(scenario_.draw(draw.seed), release.hog_distance_m, release.stone_x_m, draw.order.curl,
+                          draw.order.spin_radps);
+  }
   return draw;
 }
 
@@ -72,6 +126,7 @@ ThrowRequest Plan::request(const Draw& draw) const {
           .fault = std::nullopt,
           .eyes = text_.eyes,
           .follow_stone = true,
+          .settle = true,
           .render_threads = 1};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,17 @@ namespace hogline::campaign {
 enum class Turn { clockwise, counter_clockwise, both };
 std::string_view to_string(Turn turn);
 
+/// An ingredient that a campaign leaves out, to show what it buys.
+enum class Without {
+  nothing,
+  refraction,        ///< vision takes the paint to lie on the surface; rendered pictures only
+  latency,           ///< what was seen is taken for the present
+  visual_alignment,  ///< one look at the start, then the turn by the gyro alone
+};
+std::string_view to_string(Without without);
+/// Nothing when it is none of the words of to_string().
+std::optional<Without> parse_without(std::string_view word);
+
 /// The words of a plan, as they stand on the command line and in the campaign's folder.
 struct PlanText {
   std::string rig;       ///< the content of the file
@@ -26,6 +38,8 @@ struct PlanText {
   Span heading_deg;
   Span spin_radps;
   Turn turn = Turn::both;
+  bool tee_draws = false;  ///< speed and heading are solved for the far tee on the scenario's ice
+  Without without = Without::nothing;
 };
 
 /// What is drawn for one throw.
@@ -48,7 +62,7 @@ class Plan {
 
  private:
   PlanText text_;
-  config::ThrowerRig rig_;
+  config::ThrowerRig rig_;  ///< without what is left out
   config::ScenarioFile scenario_;
 };
 

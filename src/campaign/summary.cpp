@@ -8,6 +8,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "vision/geometry/sheet.hpp"
+
 namespace hogline::campaign {
 namespace {
 
@@ -65,6 +67,19 @@ std::string verdict(const Measure& m, const Statistics& s) {
   return met ? "met" : "**missed**";
 }
 
+// Elite players: 0.76 to 0.95 cm/s of speed and 0.07 to 0.2 deg of aim, which the same ice turns into these.
+std::string draws_table(const Summary& s) {
+  return fmt::format(
+      "\n| resting places of tee draws | throws | mean m | sigma m | elite players' sigma m |\n|---|--:|--:|--:|--:|\n"
+      "| along | {} | {:.3f} | {:.3f} | 0.26 |\n| across | {} | {:.3f} | {:.3f} | 0.07 |\n",
+      s.along_m.count, s.along_m.mean, s.along_m.sigma, s.across_m.count, s.across_m.mean, s.across_m.sigma);
+}
+
+ordered_json json_of(const Statistics& x) {
+  return {{"count", x.count}, {"mean", x.mean},     {"sigma", x.sigma}, {"rms", x.rms},
+          {"q05", x.q05},     {"median", x.median}, {"q95", x.q95},     {"largest", x.largest}};
+}
+
 }  // namespace
 
 const std::vector<Measure>& measures() {
@@ -79,7 +94,7 @@ const std::vector<Measure>& measures() {
   return table;
 }
 
-Summary summarise(const std::vector<Row>& rows) {
+Summary summarise(const std::vector<Row>& rows, bool tee_draws) {
   Summary s;
   s.throws = static_cast<int>(rows.size());
   for (const Row& row : rows) {
@@ -97,6 +112,16 @@ Summary summarise(const std::vector<Row>& rows) {
     }
     s.statistics.push_back(statistics_of(std::move(values)));
   }
+  if (!tee_draws) return s;
+  std::vector<double> along_m;
+  std::vector<double> across_m;
+  for (const Row& row : rows) {
+    if (!row.rest_x_m || !row.rest_y_m) continue;
+    along_m.push_back(*row.rest_y_m - vision::rules::tee_to_tee_m);
+    across_m.push_back(*row.rest_x_m);
+  }
+  s.along_m = statistics_of(std::move(along_m));
+  s.across_m = statistics_of(std::move(across_m));
   return s;
 }
 
@@ -115,7 +140,8 @@ std::string markdown(const Summary& s) {
                    m.name, m.unit, x.count, x.mean, x.sigma, x.rms, x.q05, x.median, x.q95, x.largest, wanted(m),
                    verdict(m, x));
   }
-  text += fmt::format("\nAborts: {}.\n", s.aborts.empty() ? "none" : "");
+  if (s.along_m.count > 0) text += draws_table(s);
+  text += s.aborts.empty() ? "\nAborts: none.\n" : "\nAborts:\n\n";
   for (const Count& c : s.aborts) text += fmt::format("- {}: {}\n", c.what, listed(c.throws));
   return text;
 }
@@ -124,11 +150,9 @@ std::string json(const Summary& s) {
   ordered_json root{{"throws", s.throws},         {"ok", s.ok},         {"released", s.released},
                     {"violations", s.violations}, {"burned", s.burned}, {"simulated_s", s.simulated_s}};
   for (std::size_t i = 0; i < measures().size(); ++i) {
-    const Statistics& x = s.statistics[i];
-    root["measures"][measures()[i].key] = {{"count", x.count}, {"mean", x.mean},      {"sigma", x.sigma},
-                                           {"rms", x.rms},     {"q05", x.q05},        {"median", x.median},
-                                           {"q95", x.q95},     {"largest", x.largest}};
+    root["measures"][measures()[i].key] = json_of(s.statistics[i]);
   }
+  if (s.along_m.count > 0) root["rest"] = {{"along_m", json_of(s.along_m)}, {"across_m", json_of(s.across_m)}};
   root["aborts"] = ordered_json::array();
   for (const Count& c : s.aborts) root["aborts"].push_back({{"reason", c.what}, {"throws", c.throws}});
   return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

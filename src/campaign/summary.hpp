@@ -34,9 +34,12 @@ struct Summary {
   std::vector<int> burned;
   std::vector<Count> aborts;           ///< by reason, most frequent first; numbers in a reason are left out
   std::vector<Statistics> statistics;  ///< of each measure, over the throws that have it
+  Statistics along_m;                  ///< resting places beyond the far tee; of tee draws
+  Statistics across_m;                 ///< ... to the right of the centre line
   double simulated_s = 0.0;
 };
-Summary summarise(const std::vector<Row>& rows);
+/// `tee_draws`: the stones were meant to rest on the far tee.
+Summary summarise(const std::vector<Row>& rows, bool tee_draws);
 
 /// As a page: the measures' table, then what went wrong with the numbers of the throws.
 std::string markdown(const Summary& summary);

@@ -216,7 +216,9 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.arm = devices.arm.value();
   rig.gyro = devices.gyro.value().device;
   rig.gyro_port = devices.gyro.value().port;
-  rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
+  rig.looks = {.near = s.section("looks").duration("near_s"),
+               .low = s.section("looks").duration("low_s"),
+               .tracked = s.section("looks").duration("tracked_s")};
   check_looks(rig, document);
   return rig;
 }

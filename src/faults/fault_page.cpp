@@ -12,7 +12,7 @@ constexpr const char* head = R"(# Faults: what was injected, and what became of 
 Written by `hogline faults` from the table in `src/faults`; do not edit. Each row is one whole simulated throw of a stone
 at 2.5 m/s, with the fault injected into the simulated wires and devices: CAN frames, Modbus answers, the gyro's bytes,
 camera frames, the control period. Percepts come from the simulator's truth with vision's errors; the picture checks
-look at rendered pictures of a fifth of the size.
+look at rendered pictures of a sixteenth of the width.
 
 - *when*: run = at full speed; turn = while aligning; braking = 0.1 s into the stop for another fault; last metre = too
   near the hog line to stop before it; release = just after the order to open.

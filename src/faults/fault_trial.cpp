@@ -37,11 +37,20 @@ ThrowRequest plain_request() {
       .follow_stone = false};
 }
 
-ThrowRequest request_of(const Case& fault) {
-  ThrowRequest request = plain_request();
+ThrowRequest prepared(const Case& fault, ThrowRequest request) {
   if (fault.prepare) fault.prepare(request);
   request.rig = with_small_pictures(std::move(request.rig));
   return request;
+}
+
+ThrowRequest request_of(const Case& fault) { return prepared(fault, plain_request()); }
+
+ThrowRequest request_of(const Case& fault, const Moment& moment) {
+  ThrowRequest request = plain_request();
+  request.scenario =
+      config::parse_scenario(config::embedded_file("scenarios/practice.yaml"), "practice scenario", moment.seed);
+  request.order = moment.order;
+  return prepared(fault, std::move(request));
 }
 
 std::optional<hw::DeviceError> first_error(const ThrowerDevices& d) {
@@ -70,13 +79,30 @@ struct Posture {
 
 class Trial {
  public:
-  explicit Trial(const Case& fault)
+  explicit Trial(const Case& fault) : Trial(fault, request_of(fault)) {}
+  Trial(const Case& fault, ThrowRequest request)
       : case_(fault),
-        request_(request_of(fault)),
+        request_(std::move(request)),
         robot_(request_.rig, request_.scenario),
         site_{.robot = robot_, .stranger = robot_.rink().bus().make_endpoint(), .each_ms = {}, .set_point = {}},
         period_(request_.rig.drive.timing.control_period),
         seer_(oracle_of(robot_, request_.rig)) {}
+
+  Trial(const Case& fault, const Moment& moment) : Trial(fault, request_of(fault, moment)) { after_ = moment.after; }
+
+  Struck run_on() {
+    power_on();
+    carry_out_throw();
+    note_end();
+    const auto& release = finding_.result.release;
+    return {.struck = struck_.has_value(),
+            .state = state_at_strike_,
+            .room_m = room_m_,
+            .standing = standing(),
+            .release_error_m = release ? release->hog_distance_m - release->target_hog_distance_m : 0.0,
+            .release_limit_m = request_.rig.thrower.release.tolerance_m,
+            .finding = finding_};
+  }
 
   Finding run() {
     power_on();
@@ -130,6 +156,10 @@ class Trial {
   std::optional<Stamp> stood_;
   PlanarPose last_place_;
   bool healed_ = false;
+  std::optional<Duration> after_;  ///< the throw's beginning: strikes then, whatever the case says
+  Stamp begin_{};
+  ThrowerState state_at_strike_{};
+  double room_m_ = 0.0;
   std::string emergency_;  ///< the first EMCY on the bus while the program does not run
 };
 
@@ -145,6 +175,7 @@ void Trial::power_on() {
   loop_.emplace(robot_.devices(), ThrowerEyes(seer_, request_.rig.looks),
                 servo::Thrower(request_.rig.thrower, request_.order, now()), servo::Supervisor(request_.rig.thrower));
   loop_->arm(now());
+  begin_ = now();
   judge_.emplace(request_.rig.thrower, robot_.scenario(), request_.order, now());
 }
 
@@ -172,6 +203,7 @@ std::optional<Stamp> Trial::since(ThrowerState state) const {
 }
 
 bool Trial::due() const {
+  if (after_) return now() - begin_ >= *after_;
   const auto passed = [&](ThrowerState state, Duration span) {
     const auto entered = since(state);
     return entered && now() - *entered >= span;
@@ -211,6 +243,8 @@ void Trial::listen() {
 void Trial::strike() {
   finding_.speed_mps = truth().twist.forward_mps;
   struck_ = now();
+  if (loop_) state_at_strike_ = loop_->thrower().state();
+  room_m_ = vision::rules::tee_to_hog_m - robot_.scenario().stone.radius_m - truth().stone.y_m;
   if (!first_struck_) first_struck_ = struck_;
   last_place_ = truth().body;
   case_.inject(site_);
@@ -370,5 +404,7 @@ void Trial::judge_stop() {
 }  // namespace
 
 Finding try_fault(const Case& fault) { return Trial(fault).run(); }
+
+Struck strike_at(const Case& fault, const Moment& moment) { return Trial(fault, moment).run_on(); }
 
 }  // namespace hogline::faults

@@ -1,6 +1,7 @@
 // One fault in one whole simulated throw: from power-on to the re-armed robot, and what became of it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,5 +29,24 @@ struct Finding {
 
 /// The same case gives the same finding.
 Finding try_fault(const Case& fault);
+
+/// A moment of a throw, and which throw.
+struct Moment {
+  std::uint64_t seed = 0;  ///< of the practice rink
+  servo::ShotOrder order;
+  Duration after{};  ///< of the throw's beginning
+};
+
+/// What was found when a fault struck at any moment. Nothing is expected, recovered or re-armed.
+struct Struck {
+  bool struck = false;           ///< false: the throw was over before
+  servo::ThrowerState state{};   ///< in which the fault struck
+  double room_m = 0.0;           ///< from the stone's centre to where it must be free, at that moment
+  bool standing = false;         ///< the robot, in the end
+  double release_error_m = 0.0;  ///< where the jaws let go, where they did
+  double release_limit_m = 0.0;  ///< the window's half
+  Finding finding;
+};
+Struck strike_at(const Case& fault, const Moment& moment);
 
 }  // namespace hogline::faults

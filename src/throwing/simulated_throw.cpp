@@ -13,7 +13,7 @@ config::ThrowerRig simulated_rig(const ThrowRequest& request) {
 }
 
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig) {
-  constexpr int divisor = 5;
+  constexpr int divisor = 16;
   for (auto* camera : {&*rig.rig.near_camera, &*rig.rig.low_camera}) {
     vision::Intrinsics& lens = camera->intrinsics;
     lens.width_px /= divisor;
@@ -27,7 +27,7 @@ OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig)
   return {robot.rink().history(),
           robot.scenario().sheet.width_m,
           {.near = rig.rig.near_camera->mount, .low = rig.rig.low_camera->mount},
-          practice_quality(),
+          measured_quality(),
           robot.scenario().seed};
 }
 
@@ -52,7 +52,8 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   const Stamp start = robot.rink().now();
   VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera);
   OracleSeer oracle = oracle_of(robot, request.rig);
-  SheetSeer& seer = request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision;
+  WatchedSeer seer(request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision, robot.rink().history(),
+                   request.watch);
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
                    servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
   loop.arm(start);
@@ -63,7 +64,9 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
     recorder.before(now, loop.thrower());
     loop.step(now, period);
     recorder.after(now, loop.thrower(), progress);
-    if (recorder.robot_done(now, loop.thrower()) && !recorder.stone_slides(now)) break;
+    const bool done = recorder.robot_done(now, loop.thrower());
+    if (done && request.settle) robot.rink().settle();
+    if (done && !recorder.stone_slides(now)) break;
   }
   return recorder.outcome(loop, vision);
 }

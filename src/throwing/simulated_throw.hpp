@@ -11,6 +11,7 @@
 #include "src/throwing/throw_result.hpp"
 #include "src/throwing/thrower_loop.hpp"
 #include "src/throwing/vision_seer.hpp"
+#include "src/throwing/watched_seer.hpp"
 
 namespace hogline {
 
@@ -25,7 +26,9 @@ struct ThrowRequest {
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
+  bool settle = false;       ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
   int render_threads = 2;
+  LookWatch watch{};  ///< told of every look, beside the truth
 };
 
 /// What there is to show of a throw.
@@ -39,13 +42,13 @@ struct ThrowOutcome {
 /// Called now and then with the simulated time and the state.
 using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
 
-/// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
+/// The same rig with cameras of a sixteenth of the width and height: enough for what is not seen by vision.
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
 
 /// The rig as the eyes need it.
 config::ThrowerRig simulated_rig(const ThrowRequest& request);
 
-/// Sees on the robot's rink what vision would see on the practice rink.
+/// Sees on the robot's rink what vision would see there (measured_quality()).
 OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig);
 
 /// The devices boot and answer before anybody is asked to throw.

@@ -17,9 +17,13 @@ SheetPosePercept VisionSeer::near_view(const hw::Frame& frame) {
 }
 
 SheetPosePercept VisionSeer::low_view(const hw::Frame& frame, const vision::LowViewPrediction& hint) {
+  constexpr double not_measured_m = 10.0;
+  const bool follows = looking_ == Looking::following;
   vision::LowViewSketch sketch;
-  SheetPosePercept percept = looking_ == Looking::following ? low_sequence_.step(frame.bgr, frame.stamp, &sketch)
-                                                            : low_.acquire(frame.bgr, frame.stamp, hint, &sketch);
+  SheetPosePercept percept = follows ? low_sequence_.step(frame.bgr, frame.stamp, &sketch)
+                                     : low_.acquire(frame.bgr, frame.stamp, hint, &sketch);
+  const bool blind = follows && percept.ok && low_sequence_.diagnosis().blind;
+  if (blind) percept.sigma.y_m = percept.hog_distance_sigma_m = not_measured_m;
   if (percept.ok) low_sight_ = {.frame = frame, .sketch = std::move(sketch), .percept = percept};
   return percept;
 }

@@ -21,6 +21,8 @@ struct Sight {
 /// Whether each frame is looked at by itself, or followed from the frame before at a fraction of the cost.
 enum class Looking { afresh, following };
 
+/// Followed frames whose hog line has left the low camera's picture tell direction and offset; their distance is only
+/// carried on, and its sigma says that it is no measurement.
 class VisionSeer final : public SheetSeer {
  public:
   VisionSeer(const vision::CameraSetup& near_setup, const vision::CameraSetup& low_setup,

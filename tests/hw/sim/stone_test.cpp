@@ -304,6 +304,19 @@ TEST(World, a_thrown_stone_takes_out_one_that_lies_in_its_way) {
   EXPECT_EQ(truth.others[1].y_m, 12.0);
 }
 
+TEST(World, settling_brings_the_stone_where_sliding_would) {
+  Delivery slid(exact_scenario());
+  slid.speed_up_to(2.0, 0.4);
+  slid.inputs.stone_free_at = slid.now;
+  slid.drive_at(0.0, 0.0, 1s);
+  Delivery settled = slid;
+  settled.world.settle();
+  EXPECT_EQ(settled.truth().stamp, slid.truth().stamp);
+  slid.drive_at(0.0, 0.0, 40s);
+  EXPECT_EQ(settled.truth().stone.y_m, slid.truth().stone.y_m);
+  EXPECT_EQ(settled.truth().stone.x_m, slid.truth().stone.x_m);
+}
+
 TEST(World, friction_differs_from_throw_to_throw_as_the_scenario_says) {
   auto scenario = exact_scenario();
   scenario.robot.start_y_m = 0.0;

@@ -25,7 +25,9 @@ PlanText practice(std::uint64_t seed = 3) {
           .speed_mps = {2.0, 2.6},
           .heading_deg = {-1.0, 1.0},
           .spin_radps = {1.0, 2.0},
-          .turn = Turn::both};
+          .turn = Turn::both,
+          .tee_draws = false,
+          .without = Without::nothing};
 }
 
 std::string content(const fs::path& path) {
@@ -160,6 +162,18 @@ TEST(Plan, a_throw_belongs_to_its_number_and_the_campaigns_seed) {
     clockwise += draw.order.curl == servo::Curl::clockwise ? 1 : 0;
   }
   EXPECT_NEAR(clockwise, 200, 60);
+}
+
+TEST(Plan, what_is_left_out_is_left_out_and_what_is_not_in_the_oracle_is_refused) {
+  PlanText text = practice();
+  text.without = Without::latency;
+  EXPECT_FALSE(Plan(text).rig().looks.compensated);
+  text.without = Without::visual_alignment;
+  EXPECT_EQ(Plan(text).rig().thrower.alignment.method, servo::AlignmentMethod::look_then_gyro);
+  text.without = Without::refraction;
+  EXPECT_THROW(Plan{text}, config::ConfigError);
+  text.eyes = Eyes::vision;
+  EXPECT_EQ(Plan(text).rig().rig.low_camera->ice.paint_depth_m, 0.0);
 }
 
 TEST(Plan, a_shot_that_the_rig_can_not_make_is_refused) {

@@ -41,7 +41,7 @@ std::vector<Row> three_rows() {
 }
 
 TEST(Summary, counts_throws_and_gathers_reasons_without_their_numbers) {
-  const Summary s = summarise(three_rows());
+  const Summary s = summarise(three_rows(), false);
   EXPECT_EQ(s.throws, 3);
   EXPECT_EQ(s.ok, 1);
   ASSERT_EQ(s.aborts.size(), 1U);
@@ -53,15 +53,28 @@ TEST(Summary, counts_throws_and_gathers_reasons_without_their_numbers) {
 }
 
 TEST(Summary, names_the_throws_that_went_wrong) {
-  const std::string page = markdown(summarise(three_rows()));
+  const std::string page = markdown(summarise(three_rows(), false));
   EXPECT_NE(page.find("no frame for # ms: 2 (1, 2)"), std::string::npos) << page;
   EXPECT_NE(page.find("Hog-line violations: 1 (2)"), std::string::npos) << page;
   EXPECT_NE(page.find("| release place | mm | 1 | 5 |"), std::string::npos) << page;
 }
 
+TEST(Summary, tells_where_tee_draws_rest) {
+  auto rows = three_rows();
+  rows[0].rest_x_m = 0.1;
+  rows[0].rest_y_m = 34.847;
+  rows[1].rest_x_m = -0.1;
+  rows[1].rest_y_m = 35.047;
+  const Summary s = summarise(rows, true);
+  EXPECT_EQ(s.along_m.count, 2);
+  EXPECT_NEAR(s.along_m.mean, 0.2, 1e-9);
+  EXPECT_NEAR(s.across_m.mean, 0.0, 1e-9);
+  EXPECT_NE(markdown(s).find("| along | 2 | 0.200 |"), std::string::npos) << markdown(s);
+}
+
 TEST(Summary, of_no_throw_can_be_written_and_drawn) {
-  EXPECT_FALSE(markdown(summarise({})).empty());
-  EXPECT_FALSE(json(summarise({})).empty());
+  EXPECT_FALSE(markdown(summarise({}, false)).empty());
+  EXPECT_FALSE(json(summarise({}, false)).empty());
   EXPECT_FALSE(distributions({}).empty());
 }
 

@@ -133,9 +133,9 @@ TEST(OracleSeer, same_seed_same_percepts_and_a_folded_head_sees_nothing) {
   truth.body = {.x_m = 0.1, .y_m = 2.0, .yaw_rad = 0.02};
   history.add(truth);
   const hw::Frame frame{.bgr = {}, .stamp = truth.stamp, .id = 7};
-  OracleSeer a(history, 4.72, {}, practice_quality(), 3);
-  OracleSeer b(history, 4.72, {}, practice_quality(), 3);
-  OracleSeer other(history, 4.72, {}, practice_quality(), 4);
+  OracleSeer a(history, 4.72, {}, measured_quality(), 3);
+  OracleSeer b(history, 4.72, {}, measured_quality(), 3);
+  OracleSeer other(history, 4.72, {}, measured_quality(), 4);
   EXPECT_FALSE(a.near_view(frame).ok);
   const auto seen = a.low_view(frame, {});
   ASSERT_TRUE(seen.ok) << seen.reason;
