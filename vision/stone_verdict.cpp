@@ -48,8 +48,8 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
 }
 
 // Votes are good to a pixel or two, so that ice and handle mix into what is taken for granite.
-bool is_hopeless(const FittedStone& glance) {
-  const double light = brightness(glance.granite);
+bool is_hopeless(const Light& granite) {
+  const double light = brightness(granite);
   return light < 0.5 * darkest_granite || light > 1.35 * lightest_granite;
 }
 

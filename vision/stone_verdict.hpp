@@ -21,8 +21,8 @@ struct JudgedStone {
 /// `behind_another`: a nearer stone may hide its body, which then need not be seen.
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another);
 
-/// The colours at the place of the votes alone say that no fit will make a stone of it.
-bool is_hopeless(const FittedStone& glance);
+/// The granite's colour at the place of the votes alone says that no fit will make a stone of it.
+bool is_hopeless(const Light& granite);
 
 /// Two stones can not stand in one place: of those nearer than a stone's breadth the better keeps it. Marks the others.
 void part_overlapping(std::vector<JudgedStone>& stones);

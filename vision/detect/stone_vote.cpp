@@ -210,12 +210,11 @@ bool removed_by(const Ballot& peak, const Ballot& other) {
 
 }  // namespace
 
-std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const WhiteLight& ice,
-                                            const ResponseCurve& response, const SheetCamera& camera,
-                                            const StoneShape& shape, const StoneVoteOptions& options) {
-  const OutlineMaker maker(camera, shape, options.area);
-  OutlineTable outlines(maker, bgr.size());
-  EdgeField field(bgr, ice, response);
+std::vector<StoneCandidate> vote_for_stones(const StonePicture& picture, const StoneGroups& groups,
+                                            const StoneVoteOptions& options) {
+  const OutlineMaker maker(picture.camera, picture.shape, options.area);
+  OutlineTable outlines(maker, picture.bgr.size());
+  EdgeField field(picture.bgr, picture.ice, picture.response);
   const float floor = static_cast<float>(options.least_votes) - 0.08F;  // a neighbouring pixel may have more
 
   std::vector<Ballot> peaks;
@@ -226,7 +225,7 @@ std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroup
     const Ballot peak = best_near(ballot, field);
     peaks.push_back(peak);
     const Eigen::Vector2d pixel(peak.x, peak.y);
-    const auto place = camera.plane_at(pixel, shape.handle_height_m);
+    const auto place = picture.camera.plane_at(pixel, picture.shape.handle_height_m);
     if (!place || peak.votes.all() < static_cast<float>(options.least_votes)) continue;
     candidates.push_back({*place, pixel, peak.votes.all(), peak.votes.handle, peak.votes.body});
   }

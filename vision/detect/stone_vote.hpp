@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "vision/detect/stone_groups.hpp"
-#include "vision/detect/white_light.hpp"
-#include "vision/geometry/stone_shape.hpp"
+#include "vision/detect/stone_picture.hpp"
 
 namespace hogline::vision {
 
@@ -41,8 +40,7 @@ struct StoneVoteOptions {
 };
 
 /// Candidates of all boxes, by falling votes.
-std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const WhiteLight& ice,
-                                            const ResponseCurve& response, const SheetCamera& camera,
-                                            const StoneShape& shape, const StoneVoteOptions& options = {});
+std::vector<StoneCandidate> vote_for_stones(const StonePicture& picture, const StoneGroups& groups,
+                                            const StoneVoteOptions& options = {});
 
 }  // namespace hogline::vision
