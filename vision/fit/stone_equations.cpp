@@ -86,12 +86,11 @@ void StoneModel::find_slopes(int part, const SharedLook& look) {
   slopes_.col(2) = -handle * handle_.part * handle_.by_height;
   slopes_.col(3) = body * body_.by_radius;
   slopes_.col(4) = body * body_.by_half_height;
-  slopes_.col(5) = handle * handle_.by_height + face * face_.by_height;
-  slopes_.col(6) = handle * handle_.by_radius + face * face_.by_radius;
-  slopes_.col(7) = (b.handle - b.face) * colour[0];
+  slopes_.col(5) = handle * handle_.by_radius + face * face_.by_radius;
+  slopes_.col(6) = (b.handle - b.face) * colour[0];
   const auto blur = static_cast<float>(part == 0 ? look.blur_px : look.colour_blur_px);
-  slopes_.col(part == 0 ? 8 : 9) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
-  slopes_.col(part == 0 ? 9 : 8).setZero();
+  slopes_.col(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
+  slopes_.col(part == 0 ? 8 : 7).setZero();
 }
 
 // Residuals beyond the scale of the last step count less and less.

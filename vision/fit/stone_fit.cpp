@@ -14,24 +14,23 @@ namespace {
 constexpr double thickness_sigma_m = 0.008;
 constexpr double radius_sigma_m = 0.0025;
 constexpr double half_height_sigma_m = 0.004;
-constexpr double handle_height_sigma_m = 0.001;  // of a measurement on site, and of what "the rim" of a round edge is
-constexpr double handle_radius_sigma_m = 0.001;
-constexpr double correlated = 4.0;      // neighbouring pixels share their noise: colour mosaic, compression
-constexpr double rim_doubt_m = 0.0020;  // how high a rounded rim seems, against what was measured on site
+constexpr double handle_radius_sigma_m = 0.001;  // of a measurement on site, and of what the edge of a round rim is
+constexpr double correlated = 4.0;               // neighbouring pixels share their noise: colour mosaic, compression
+constexpr double rim_doubt_m = 0.0020;           // how high a rounded rim seems, against what was measured on site
 constexpr double wall_light_sigma = 0.15;
 constexpr double blur_sigma_px = 0.2;
 constexpr double colour_blur_sigma_px = 0.5;
 
 SharedVector prior_weights() {
   SharedVector sigma;
-  sigma << thickness_sigma_m, radius_sigma_m, half_height_sigma_m, handle_height_sigma_m, handle_radius_sigma_m,
-      wall_light_sigma, blur_sigma_px, colour_blur_sigma_px;
+  sigma << thickness_sigma_m, radius_sigma_m, half_height_sigma_m, handle_radius_sigma_m, wall_light_sigma,
+      blur_sigma_px, colour_blur_sigma_px;
   return sigma.cwiseAbs2().cwiseInverse();
 }
 
 SharedVector longest_step() {
   SharedVector step;
-  step << 0.004, 0.004, 0.004, 0.003, 0.003, 0.2, 0.15, 0.3;
+  step << 0.004, 0.004, 0.004, 0.003, 0.2, 0.15, 0.3;
   return step;
 }
 
