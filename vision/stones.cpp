@@ -62,6 +62,7 @@ struct StoneFinder::Impl {
   Lens lens;
   ResponseCurve response;
   StoneGroupFinder groups;
+  StoneVoter voter;
   StoneFitter fitter;
 };
 
@@ -82,7 +83,8 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
-  const auto candidates = vote_for_stones(picture, groups, {.area = area.wider(look_around_m)});
+  const std::vector<StoneCandidate>& candidates =
+      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m)});
 
   std::vector<JudgedStone> stones = impl_->screen(picture, candidates);
   compare_granite(stones);

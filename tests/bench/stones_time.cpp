@@ -51,7 +51,7 @@ class Stopwatch {
     ms[ice_light] = elapsed_ms([&] { ice.emplace(bgr_, response_, groups_.top()); });
     const StonePicture picture{bgr_, response_, *ice, camera_, shape_};
     ms[boxes] = elapsed_ms([&] { found_ = groups_.find(bgr_, *ice, response_); });
-    ms[votes] = elapsed_ms([&] { vote_for_stones(picture, found_); });
+    ms[votes] = elapsed_ms([&] { voter_.find(picture, found_); });
     std::vector<Eigen::Vector2d> places;
     for (const auto& s : seen.stones) places.push_back({s.x_m, s.y_m});
     ms[joint_fit] = elapsed_ms([&] {
@@ -74,6 +74,7 @@ class Stopwatch {
   StoneShape shape_;
   StoneGroupFinder groups_;
   StoneGroups found_;
+  StoneVoter voter_;
   StoneFitter fitter_;
   std::optional<StoneFinder> finder_;
 };
