@@ -133,8 +133,12 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const StonePicture& picture,
                                                    const std::vector<StoneCandidate>& candidates) {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
-    if (granite_share(picture, c.place) < least_granite) continue;
     if (is_taken(c.place, stones)) continue;
+    if (granite_share(picture, c.place) < least_granite) {
+      stones.push_back({c, FittedStone(), "no granite below the handle"});
+      stones.back().fit.place = c.place;
+      continue;
+    }
     fitter.begin(picture, {c.place}, quick_look());
     if (is_hopeless(fitter.first_granite())) {
       stones.push_back({c, FittedStone(), "its colours are no stone's"});

@@ -57,6 +57,7 @@ FittedStone fitted(const StoneModel& s, const SharedMatrix& shared_covariance) {
   f.place = s.place();
   f.handle = s.handle_colour();
   f.granite = s.granite_colour();
+  f.granite_pixels = s.granite_pixels();
   f.residual = s.residual();
   f.explained = s.explained();
   f.visible = s.visible();

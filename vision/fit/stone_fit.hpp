@@ -19,6 +19,7 @@ struct FittedStone {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the place, the shared shape's doubt included
   Light handle = Light::Zero();                          ///< colour against white ice: blue, green, red
   Light granite = Light::Zero();
+  int granite_pixels = 0;  ///< of those used, how many show granite and nothing else
   double residual = 0.0;   ///< RMS of light left unexplained, against white ice
   double explained = 0.0;  ///< share of the picture's difference from the background that the stone explains, 0..1
   double handle_contrast = 0.0;  ///< between handle and granite, in light against white ice

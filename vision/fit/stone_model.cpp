@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/fit/light_parts.hpp"
@@ -19,6 +20,8 @@ constexpr double neighbour_m = 2.5;     // farther stones hide nothing of each o
 constexpr double abreast_m = 0.33;      // nor do those that are farther apart across the line of sight
 constexpr double most_step_m = 0.06;
 constexpr float fewest_pixels = 40.0F;
+constexpr float plain_granite = 0.85F;  // of a pixel's light
+constexpr int fewest_granite = 8;
 
 const NormalTable normal_table;
 
@@ -144,7 +147,26 @@ bool StoneModel::enough() const { return used_.sum() >= fewest_pixels; }
 double StoneModel::visible() const { return used_.size() == 0 ? 0.0 : static_cast<double>(used_.mean()); }
 
 Light StoneModel::handle_colour() const { return from_parts(colours_.row(0).transpose()); }
-Light StoneModel::granite_colour() const { return from_parts(colours_.row(1).transpose()); }
+
+int StoneModel::granite_pixels() const {
+  return static_cast<int>((fine_.granite > plain_granite && used_ > 0.0F).count());
+}
+
+Light StoneModel::granite_colour() const {
+  if (granite_pixels() < fewest_granite) return from_parts(colours_.row(1).transpose());
+  Light granite;
+  for (int channel = 0; channel < 3; ++channel) {
+    std::array<float, most_pixels> lights{};
+    auto end = lights.begin();
+    for (Eigen::Index i = 0; i < seen_.count(); ++i) {
+      if (fine_.granite[i] > plain_granite && used_[i] > 0.0F) *end++ = seen_.light(i, channel);
+    }
+    const auto middle = lights.begin() + (end - lights.begin()) / 2;
+    std::nth_element(lights.begin(), middle, end);
+    granite[channel] = static_cast<double>(*middle);
+  }
+  return granite;
+}
 
 Light StoneModel::behind_colour() const {
   Light sum = Light::Zero();

@@ -52,7 +52,9 @@ class StoneModel {
   const ModelVector& right() const { return right_; }
 
   Light handle_colour() const;  ///< blue, green, red against white ice
+  /// The middle one of the pixels that show granite and nothing else; of few such pixels, what explains them all best.
   Light granite_colour() const;
+  int granite_pixels() const;  ///< how many show granite and nothing else
   Light behind_colour() const;
 
  private:
