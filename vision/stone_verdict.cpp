@@ -13,11 +13,18 @@ constexpr double neutral_share = 0.30;
 constexpr double colourless = 0.35;  // share of the brightest channel that the channels of a grey differ by
 constexpr double faint = 0.12;       // difference of the channels, light against white ice
 constexpr double least_body_votes = 0.10;
+constexpr double clear_contrast = 0.35;  // between body and surroundings: no dark paint
+constexpr double least_handle_votes = 0.20;
 constexpr double most_votes = 0.66;  // more than chance gives: a handle without a colour needs them
 constexpr double least_handle_contrast = 0.15;
 constexpr double least_explained = 0.80;
+constexpr double few_votes = 0.40;
+constexpr double well_explained = 0.90;
 constexpr double most_residual = 0.25;
 constexpr int least_granite_pixels = 8;  // fewer say nothing of a colour
+constexpr double grip_height_m = 0.045;  // of a grip's bar over the handle's rim, about
+constexpr double grip_half_m = 0.06;     // across: half a bar
+constexpr double grip_reach_m = 0.16;    // along: a little height is much range
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
 constexpr double most_drift_m = 0.16;
@@ -48,6 +55,7 @@ bool is_coloured(const Light& handle) {
 
 // A handle that shows over nearer stones, its granite behind them: the handle alone must convince.
 std::string doubt_of_handle_alone(const StoneCandidate& candidate, const FittedStone& fit) {
+  if (brightness(fit.granite) > 1.35 * lightest_granite) return "ice, not granite, below what may be a grip";
   if (candidate.handle_votes < least_lone_handle_votes) return "neither granite nor a clear handle";
   if (!is_coloured(fit.handle)) return "neither granite nor a handle's colour";
   return {};
@@ -63,10 +71,28 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (!doubt.empty()) return doubt;
   if (!handle_alone && fit.handle_contrast < least_handle_contrast) return "no handle stands out";
   if (!is_coloured(fit.handle) && candidate.votes < most_votes) return "a handle without colour, and few votes";
-  if (!behind_another && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
+  if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
+  const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
+  if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
+  if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};
+}
+
+void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape) {
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty() || s.fit.granite_pixels >= least_granite_pixels) continue;
+    for (const JudgedStone& other : stones) {
+      if (&other == &s || !other.doubt.empty()) continue;
+      const Bearing bearing = bearing_of(other.fit.place, eye);
+      const double over_m = grip_height_m * bearing.range_m / (eye.z() - shape.handle_height_m - grip_height_m);
+      const Eigen::Vector2d off = s.fit.place - other.fit.place - over_m * bearing.away;
+      const bool over_it =
+          std::abs(off.dot(bearing.right)) < grip_half_m && std::abs(off.dot(bearing.away)) < grip_reach_m;
+      if (over_it) s.doubt = "it may be a nearer stone's grip";
+    }
+  }
 }
 
 // Votes are good to a pixel or two, so that ice and handle mix into what is taken for granite.

@@ -27,6 +27,9 @@ bool is_hopeless(const Light& granite);
 /// Two stones can not stand in one place: of those nearer than a stone's breadth the better keeps it. Marks the others.
 void part_overlapping(std::vector<JudgedStone>& stones);
 
+/// What shows no granite and stands where a nearer stone's grip is seen may be that grip: marks it. `eye` in e.
+void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape);
+
 /// All stones of a club are cut from the same rock: marks what differs much from the others' granite.
 void compare_granite(std::vector<JudgedStone>& stones);
 

@@ -89,10 +89,12 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   std::vector<JudgedStone> stones = impl_->screen(picture, candidates);
   compare_granite(stones);
   part_overlapping(stones);
+  doubt_grips(stones, picture.eye(), picture.shape);
 
   impl_->refine(picture, stones);
   compare_granite(stones);
   part_overlapping(stones);
+  doubt_grips(stones, picture.eye(), picture.shape);
 
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";

@@ -14,7 +14,7 @@ namespace {
 constexpr double range_m = 13.0;             // from the body: the hog line and a little more
 constexpr double half_width_m = 4.5;         // to the side of the body: the sheet, off its middle and turned
 constexpr double grip_height_m = 0.07;       // over the handle's rim
-constexpr float least_granite = 0.12F;       // share of the body below a handle; nearer stones may hide the rest
+constexpr float least_granite = 0.08F;       // share of the body below a handle; nearer stones may hide the rest
 constexpr float most_handle_granite = 0.6F;  // share of the handle that may look like granite
 constexpr float big_px = 24.0F;              // half the width of stones for which every fourth pixel is enough
 constexpr float margin_px = 4.0F;
