@@ -104,7 +104,8 @@ int main(int argc, char** argv) {
                  best[all]);
     for (std::size_t i = 0; i < stages; ++i) times[i].push_back(best[i]);
   }
-  for (std::size_t i = 0; i < stages; ++i) std::printf("%-18s %6.2f ms median\n", names[i], median(times[i]));
-  std::printf("%-18s %6.2f ms\n", "slowest board", *std::max_element(times[all].begin(), times[all].end()));
+  std::printf("| stage | median ms |\n|---|--:|\n");
+  for (std::size_t i = 0; i < stages; ++i) std::printf("| %s | %.2f |\n", names[i], median(times[i]));
+  std::printf("| the slowest board | %.2f |\n", *std::max_element(times[all].begin(), times[all].end()));
   return 0;
 }

@@ -97,16 +97,19 @@ void measure_visibility(RandomBoard& board) {
     const vision::Bearing bearing = vision::bearing_of({s.x_m, s.y_m}, eye);
     int handle = 0;
     int body = 0;
+    int rim = 0;
     constexpr int points = 48;
     for (int k = 0; k < points; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / points;
       const double part = std::sqrt((k % 4 + 0.5) / 4.0);
       handle += sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.095 * part, 0.126, angle), i) ? 1 : 0;
+      rim += sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.095, 0.126, angle), i) ? 1 : 0;
       const double front = -std::numbers::pi * (k + 0.5) / points;
       body +=
           sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.1455, 0.03 + 0.02 * (k % 4), front), i) ? 1 : 0;
     }
     s.handle_seen = static_cast<double>(handle) / points;
+    s.rim_seen = static_cast<double>(rim) / points;
     s.body_seen = static_cast<double>(body) / points;
   }
 }

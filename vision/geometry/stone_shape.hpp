@@ -20,9 +20,9 @@ struct StoneShape {
   double body_half_height_m = 0.057;  ///< of the ellipsoid that stands for the body; at least 0.0572 by the rules
 };
 
-/// How much lower than its height the upper rim of a rounded edge is seen at a distance along the ice: the line of sight
-/// that just passes the edge touches it below the rim (geometry: an edge of 3 mm radius is seen 0.5 mm lower from 10
-/// degrees above the ice, 1.6 mm lower from 40).
+/// How much lower than its height the upper rim of a rounded edge is seen at a distance along the ice: the line of
+/// sight that just passes the edge touches it below the rim (geometry: an edge of 3 mm radius is seen 0.5 mm lower from
+/// 10 degrees above the ice, 1.6 mm lower from 40).
 double rim_lowering_m(const StoneShape& shape, double range_m, double eye_m);
 
 /// The directions at a place on the sheet as the camera sees it.
