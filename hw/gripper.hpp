@@ -15,6 +15,7 @@ struct GripperState {
   double spin_radps = 0.0;             ///< of the stone, counter-clockwise from above positive
   Stamp stamp{};                       ///< of the newest answer that was checked by its content
   std::optional<Stamp> opening_since;  ///< when the device first reported that the jaws open
+  std::optional<Stamp> freed_at;       ///< when the jaws had opened as far as frees the stone, by the device's report
   std::optional<DeviceError> error;    ///< latched
 };
 

@@ -21,6 +21,9 @@ constexpr double encoder_sigma_mps = 0.003;
 constexpr double surprise_share = 0.2;
 constexpr double surprise_limit = 1.2;  // 3.6 standard deviations
 
+constexpr double slip_share = 0.2;     // of the way that spinning wheels measure
+constexpr double scale_doubt = 0.015;  // of the odometry's scale after a slip
+
 HogDistanceModel::State placed(const OdometryConfig& config, double hog_distance_m, double sigma_m) {
   HogDistanceModel::State state;
   state.hog_distance_m = hog_distance_m;
@@ -49,6 +52,14 @@ void HogDistanceModel::hold(State& state, double dt_s) const {
 
 void HogDistanceModel::drive(State& state, double dt_s, const Input& input) const {
   propagate(state, (state.odometry_mps + input.odometry_mps) / 2.0 * dt_s);
+  if (input.slipping) {
+    const double lost_m = slip_share * state.odometry_mps * dt_s;
+    state.distance_distance += 2.0 * std::sqrt(state.distance_distance) * std::abs(lost_m) + lost_m * lost_m;
+    state.distance_scale = 0.0;
+  }
+  // Until it was noticed the slip has been taken for the wheels' scale.
+  if (input.slipping && !state.slipping) state.scale_scale += scale_doubt * scale_doubt;
+  state.slipping = input.slipping;
   state.odometry_mps = input.odometry_mps;
   state.speed_mps += state.acceleration_mps2 * dt_s;
   const double off_mps = input.odometry_mps - state.speed_mps;
@@ -86,8 +97,8 @@ HogDistanceFilter::HogDistanceFilter(const OdometryConfig& config, Stamp start, 
   assert(std::isfinite(hog_distance_m) && sigma_m > 0.0);
 }
 
-void HogDistanceFilter::odometry(Stamp stamp, double forward_mps, double yaw_rad) {
-  fusion_.input(stamp, {forward_mps * std::cos(yaw_rad)});
+void HogDistanceFilter::odometry(Stamp stamp, double forward_mps, double yaw_rad, bool slipping) {
+  fusion_.input(stamp, {forward_mps * std::cos(yaw_rad), slipping});
 }
 
 Fusion HogDistanceFilter::hog_distance(Stamp stamp, double hog_distance_m, double sigma_m) {

@@ -37,6 +37,7 @@ class HogDistanceModel {
     double odometry_mps = 0.0;  ///< measured, along e's y, in force since the last input
     double speed_mps = 0.0;     ///< the same, smoothed
     double acceleration_mps2 = 0.0;
+    bool slipping = false;
     double surprise = 0.0;  ///< mean of the last looks' normalised innovations
     double distance_distance = 0.0;
     double distance_scale = 0.0;
@@ -44,6 +45,7 @@ class HogDistanceModel {
   };
   struct Input {
     double odometry_mps = 0.0;
+    bool slipping = false;  ///< the wheels spin: their way says little, and nothing of their scale
   };
   struct Measurement {
     double hog_distance_m = 0.0;
@@ -66,7 +68,7 @@ class HogDistanceFilter {
   HogDistanceFilter(const OdometryConfig& config, Stamp start, double hog_distance_m, double sigma_m);
 
   /// Wheel odometry: measured forward speed and the heading it is run at.
-  void odometry(Stamp stamp, double forward_mps, double yaw_rad);
+  void odometry(Stamp stamp, double forward_mps, double yaw_rad, bool slipping = false);
 
   /// A hog distance seen at `stamp`, however late. Precondition: finite, sigma_m > 0.
   Fusion hog_distance(Stamp stamp, double hog_distance_m, double sigma_m);

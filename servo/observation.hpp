@@ -31,12 +31,19 @@ struct GripperObservation {
   bool open = false;        ///< the jaws are, or have begun to be, open
   double spin_radps = 0.0;  ///< of the held stone, counter-clockwise from above positive
   std::optional<Stamp> opening_since;
+  std::optional<Stamp> freed_at;  ///< when the jaws had travelled as far as frees the stone, by their own report
 };
 
 struct ArmObservation {
   Stamp stamp{};
   bool folded = false;
   bool unfolded = false;
+};
+
+/// The operator's dead-man's switch.
+struct OperatorObservation {
+  Stamp stamp{};      ///< when its state was read
+  bool held = false;  ///< pressed: motion is wanted
 };
 
 /// All of it. An empty optional means that nothing has arrived yet; what has arrived carries its stamp, and the
@@ -49,7 +56,9 @@ struct ThrowerObservation {
   std::optional<ArmObservation> arm;
   std::optional<SheetPosePercept> near_view;
   std::optional<SheetPosePercept> low_view;
-  std::optional<std::string> device_error;  ///< a latched error of any device, in words; stops the robot
+  std::optional<OperatorObservation> operator_switch;  ///< only the supervisor looks at it
+  std::optional<std::string> device_error;             ///< a latched error of any device, in words; stops the robot
+  std::optional<std::string> safety_stop;              ///< why the supervisor lets nothing pass; stops the controller
 };
 
 }  // namespace hogline::servo

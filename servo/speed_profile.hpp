@@ -14,6 +14,7 @@ class SpeedProfile {
 
   double speed_mps(double time_s) const;
   double acceleration_mps2(double time_s) const;
+  double travelled_m(double time_s) const;
   double duration_s() const { return 2.0 * ramp_s_ + constant_s_; }
   /// From rest until the speed is reached.
   double distance_m() const { return final_mps_ * duration_s() / 2.0; }

@@ -55,6 +55,7 @@ ThrowerCommand Thrower::Impl::step(const ThrowerObservation& observation, Durati
 std::optional<std::string> Thrower::Impl::judge(const ThrowerObservation& observation, Duration dt) {
   const std::string in_state = std::string(" (") + to_string(state) + ")";
   if (last_now && observation.now < *last_now) return "control period: time goes back" + in_state;
+  if (observation.safety_stop) return "safety: " + *observation.safety_stop + in_state;
   if (auto reason = bad_input(observation, dt, needs(observation), config)) return *reason + in_state;
   if (observation.now - history.back().since > deadline()) {
     if (state == ThrowerState::release && !observation.gripper->open) release_ordered = false;
@@ -147,7 +148,7 @@ EstimateUse Thrower::Impl::use() const {
     case ThrowerState::measure:
       return {.standing = true};
     case ThrowerState::align:
-      return {.near_view = true};
+      return {.near_view = config.alignment.method == AlignmentMethod::visual_servoing};
     case ThrowerState::fold:
     case ThrowerState::run:
     case ThrowerState::release:

@@ -32,8 +32,12 @@ struct ThrowerDiagnosis {
   double lateral_m = 0.0;  ///< from the shot's line, left positive
   double speed_mps = 0.0;
   double speed_setpoint_mps = 0.0;
+  int slipping_periods = 0;  ///< control periods in which the wheels spun
   std::optional<double> yaw_after_alignment_rad;
   std::optional<Stamp> predicted_release;  ///< when the stone's release plane will be crossed
+  std::optional<Stamp> release_ordered;
+  std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
+  std::optional<double> freed_at_speed_mps;  ///< the body's, as believed when the stone was free
 };
 
 /// One throw, from a robot that stands and holds a stone to a robot that stands. Pure: no clock, no thread, no device.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "servo/yaw_bias.hpp"
 #include "vision/percepts/stamp.hpp"
 
 namespace hogline::servo {
@@ -28,6 +29,10 @@ struct ReleaseConfig {
   double tolerance_m = 0.0;      ///< outside release plane +- tolerance the stone is kept
   double stone_x_m = 0.0;        ///< the held stone's centre in b, ahead of the origin
   double gripper_delay_s = 0.0;  ///< from the command to the stone being free
+  double gripper_delay_sigma_s = 0.0;
+  double drag_mps = 0.0;  ///< by so much the stone is slower than the body that let it go
+  double drag_sigma_mps = 0.0;
+  double rest_hog_distance_m = 0.0;  ///< where the body's origin shall come to rest; negative: beyond the line
 };
 
 /// How old an input may be before the robot stops.
@@ -38,6 +43,7 @@ struct AgeLimits {
   Duration arm{};
   Duration near_view{};  ///< while measuring and aligning
   Duration low_view{};   ///< while the low view is the source of the distance
+  Duration low_sight{};  ///< ... since it last saw the hog line, where it must be in sight
 };
 
 /// What the robot rests on before it turns.
@@ -46,8 +52,14 @@ struct MeasureConfig {
   Duration rest{};  ///< how long the gyro's bias is learnt at rest, at least
 };
 
+enum class AlignmentMethod {
+  visual_servoing,  ///< the near view closes the loop, the gyro carries it from look to look
+  look_then_gyro,   ///< the paper's: one measurement before the turn, then the gyro alone
+};
+
 /// The turn on the spot. ViSP's adaptive gain: `gain_at_zero` for small errors, `gain_at_infinity` for large ones.
 struct AlignmentConfig {
+  AlignmentMethod method = AlignmentMethod::visual_servoing;
   std::array<double, 9> near_cRb{};  ///< near camera's rotation: b-directions to camera directions, row by row
   double gain_at_zero_per_s = 0.0;
   double gain_at_infinity_per_s = 0.0;
@@ -57,6 +69,7 @@ struct AlignmentConfig {
   Duration settle_time{};                 ///< for this long
   double breakaway_yaw_rate_radps = 0.0;  ///< the slowest ordered turn that is sure to overcome stiction
   double stopping_lag_s = 0.0;            ///< the body turns on for about this long after a turn is no longer ordered
+  YawBiasTable near_yaw_bias{};           ///< of the near view, by a turn on the spot; may be empty
 };
 
 struct GyroConfig {
@@ -71,11 +84,14 @@ struct OdometryConfig {
   double scale_sigma = 0.0;             ///< of true over measured distance, before it is learnt
   double scale_drift_per_sqrt_m = 0.0;  ///< wear, slip that changes with the acceleration
   double noise_m_per_sqrt_m = 0.0;      ///< random walk of the travelled distance
+  double speed_delay_s = 0.0;           ///< the wheels' speeds are those of so long before their stamp
 };
 
 /// The run to the release plane, and when a release is still worth it.
 struct RunConfig {
-  double hold_distance_m = 0.0;  ///< the shot's speed is reached at least this far before the release plane
+  double sight_from_hog_m = 0.0;  ///< from this distance of b's origin the hog line must be in sight of the low camera,
+  double sight_to_hog_m = 0.0;    ///< to this one
+  double hold_distance_m = 0.0;   ///< the shot's speed is reached at least this far before the release plane
   double heading_gain_per_s = 0.0;
   double lateral_length_m = 0.0;         ///< a lateral offset is run down over this length
   double max_lateral_heading_rad = 0.0;  ///< the heading given up for the offset, at most
@@ -85,10 +101,21 @@ struct RunConfig {
   double spin_tolerance_radps = 0.0;
 };
 
+/// The supervisor's bounds. They are bounds, not standard deviations: beyond them something is wrong.
 struct SafetyConfig {
   double max_yaw_rate_disagreement_radps = 0.0;  ///< between gyro and wheels
   Duration disagreement_time{};                  ///< how long it may last
   double reaction_s = 0.0;                       ///< from the decision to brake to full braking
+  double speed_margin = 0.0;        ///< share of a limit by which a measured or ordered speed may exceed it
+  double odometry_bound = 0.0;      ///< share by which the wheels' distance can be wrong while they roll
+  double look_sigmas = 0.0;         ///< a look at the hog line is off by no more than so many of its sigmas
+  double look_margin_m = 0.0;       ///< ... and this
+  double slip_allowance_m = 0.0;    ///< by so much the wheels may have slipped between two looks
+  double max_travel_m = 0.0;        ///< of the wheels, forward, from arming to the release
+  double max_overrun_m = 0.0;       ///< of the body's origin beyond the hog line
+  double max_tilt_rad = 0.0;        ///< of the body against the ice, as the cameras see it
+  Duration operator_age{};          ///< of the dead-man's switch's state
+  std::array<double, 9> low_cRb{};  ///< low camera's rotation: b-directions to camera directions
 };
 
 /// How long a state may last. A state that lasts longer aborts the throw.

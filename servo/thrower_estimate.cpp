@@ -55,9 +55,11 @@ void ThrowerEstimate::take_wheels(const WheelObservation& wheels, bool standing)
   odometry_ = twist_of({wheels.left_radps, wheels.right_radps}, config_.base);
   resting_s_ = standing && resting(odometry_) ? resting_s_ + dt_s : 0.0;
   if (!on_line()) return;
-  const HeadingEstimate heading = heading_.at(wheels.stamp);
-  hog_distance_->odometry(wheels.stamp, odometry_.forward_mps, heading.yaw_rad);
-  const double scale = hog_distance_->at(wheels.stamp).scale;
+  // Drives average over a window: a speed taken for that of its stamp would show as a wrong scale after each ramp.
+  const Stamp measured = wheels.stamp - from_seconds(config_.odometry.speed_delay_s);
+  const HeadingEstimate heading = heading_.at(measured);
+  hog_distance_->odometry(measured, odometry_.forward_mps, heading.yaw_rad, slipping_);
+  const double scale = hog_distance_->at(measured).scale;
   lateral_->advance(scale * odometry_.forward_mps, heading.yaw_rad, heading.yaw_sigma_rad, dt_s);
 }
 
@@ -69,13 +71,15 @@ void ThrowerEstimate::take_near_view(const SheetPosePercept& view) {
   if (near_stamp_ && view.stamp == *near_stamp_) return;
   near_stamp_ = view.stamp;
   if (!view.ok || !heading_.started()) return;
-  heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
+  const double yaw_rad = view.body.yaw_rad - yaw_bias(config_.alignment.near_yaw_bias, view.body.yaw_rad);
+  heading_.sheet_yaw(view.stamp, yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
 }
 
 void ThrowerEstimate::take_low_view(const SheetPosePercept& view) {
   if (low_stamp_ && view.stamp == *low_stamp_) return;
   low_stamp_ = view.stamp;
   if (!view.ok || !on_line()) return;
+  last_sight_ = view.stamp;
   heading_.sheet_yaw(view.stamp, view.body.yaw_rad, view.sigma.yaw_rad, yaw_look_counts_as);
   hog_distance_->hog_distance(view.stamp, view.hog_distance_m, view.hog_distance_sigma_m);
   lateral_->correct(view);

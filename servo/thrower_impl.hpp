@@ -6,7 +6,10 @@
 #include "servo/line_tracking.hpp"
 #include "servo/place_average.hpp"
 #include "servo/release.hpp"
-#include "servo/safety.hpp"
+#include "servo/safety/input_check.hpp"
+#include "servo/safety/latch.hpp"
+#include "servo/safety/turn_agreement.hpp"
+#include "servo/slip_watch.hpp"
 #include "servo/speed_profile.hpp"
 #include "servo/thrower.hpp"
 #include "servo/thrower_estimate.hpp"
@@ -35,6 +38,8 @@ struct Thrower::Impl {
   ThrowerCommand align(const ThrowerObservation& observation, Duration dt);
   ThrowerCommand fold(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> run_does_not_fit(double hog_distance_m) const;
+  SheetPosePercept near_view(const ThrowerObservation& observation) const;  // its known bias taken off
+  void begin_line(Stamp now, const Place& here);
   double turn_to_heading(Stamp now, Duration dt, bool& settled);
 
   // thrower_running.cpp: the run and after
@@ -48,6 +53,10 @@ struct Thrower::Impl {
   DriveCommand drive(double true_speed_mps, Stamp now, double to_release_s, Duration dt);
   DriveCommand velocity(const PlanarTwist& twist) const;
   double spin_radps() const;
+  double run_speed_mps() const { return order.speed_mps + config.release.drag_mps; }
+  void advance_profile(const ThrowerObservation& observation, Duration dt);
+  std::optional<std::string> out_of_sight(Stamp now, double hog_distance_m);
+  bool stone_is_free(const ThrowerObservation& observation);
 
   ThrowerConfig config;
   ShotOrder order;
@@ -60,12 +69,17 @@ struct Thrower::Impl {
   std::optional<Stamp> last_now;
 
   PlaceAverage place;                     // measure, align
+  std::optional<Place> measured;          // measure: where the body stood before the turn
   std::optional<YawAlignment> alignment;  // align, fold
   Stamp moved{};                          // align: the last moment a turn was ordered
   std::optional<SpeedProfile> profile;    // run
   std::optional<LineTracking> tracking;   // run, release, brake
+  SlipWatch slip;                         // run
+  double profile_s = 0.0;                 // run: how far along the profile
+  double profile_rate = 1.0;              // run: of the profile's time; after a slip it goes on more slowly
   double speed_setpoint_mps = 0.0;
-  double driven_scale = 1.0;  // of the odometry, as passed on to the wheels
+  double driven_scale = 1.0;                // of the odometry, as passed on to the wheels
+  std::optional<Stamp> sight_wanted_since;  // run: the hog line must have been in sight since
   bool release_ordered = false;
   bool released = false;
   Duration at_rest_for{};

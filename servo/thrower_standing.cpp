@@ -30,12 +30,13 @@ ThrowerCommand Thrower::Impl::unfold(const ThrowerObservation& o) {
 ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {
   ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
   command.drive.order = o.wheels->enabled ? DriveOrder::velocity : DriveOrder::enable;
-  if (o.near_view && o.near_view->stamp >= history.back().since) place.add(*o.near_view);
+  if (o.near_view && o.near_view->stamp >= history.back().since) place.add(near_view(o));
   const bool rested = estimate.resting_s() >= seconds(config.measure.rest);
   if (!o.wheels->enabled || !rested || place.size() < config.measure.frames) return command;
 
   const Place here = *place.average();
   abort.set(run_does_not_fit(here.hog_distance_m));
+  measured = here;
   estimate.start_heading(o.now, here);
   alignment.emplace(config.alignment, config.limits, order.heading_rad);
   place.clear();
@@ -63,7 +64,11 @@ ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
     moved = o.now;
     place.clear();
   }
-  if (o.near_view->stamp > moved + from_seconds(config.alignment.stopping_lag_s)) place.add(*o.near_view);
+  if (o.near_view->stamp > moved + from_seconds(config.alignment.stopping_lag_s)) place.add(near_view(o));
+  if (config.alignment.method == AlignmentMethod::look_then_gyro) {
+    if (settled) begin_line(o.now, *measured);
+    return command;
+  }
   if (!settled || place.size() < config.measure.frames) return command;
 
   const Place here = *place.average();
@@ -72,11 +77,19 @@ ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   const double error_rad = std::remainder(here.body.yaw_rad - order.heading_rad, 2.0 * std::numbers::pi);
   if (std::abs(error_rad) > std::max(config.alignment.tolerance_rad, here.sigma.yaw_rad)) return command;
 
-  abort.set(run_does_not_fit(here.hog_distance_m));
-  diagnosis.yaw_after_alignment_rad = estimate.heading(o.now).yaw_rad;
-  estimate.start_line(o.now, here, order.heading_rad);
-  enter(ThrowerState::fold, o.now);
+  begin_line(o.now, here);
   return command;
+}
+
+SheetPosePercept Thrower::Impl::near_view(const ThrowerObservation& o) const {
+  return without_yaw_bias(*o.near_view, config.alignment.near_yaw_bias);
+}
+
+void Thrower::Impl::begin_line(Stamp now, const Place& here) {
+  abort.set(run_does_not_fit(here.hog_distance_m));
+  diagnosis.yaw_after_alignment_rad = estimate.heading(now).yaw_rad;
+  estimate.start_line(now, here, order.heading_rad);
+  enter(ThrowerState::fold, now);
 }
 
 ThrowerCommand Thrower::Impl::fold(const ThrowerObservation& o, Duration dt) {
@@ -89,14 +102,14 @@ ThrowerCommand Thrower::Impl::fold(const ThrowerObservation& o, Duration dt) {
   if (!o.arm->folded || !settled || !spinning || !sees) return command;
 
   abort.set(run_does_not_fit(estimate.hog_distance().at(o.now).hog_distance_m));
-  profile.emplace(order.speed_mps, config.limits.max_acceleration_mps2, config.limits.max_jerk_mps3);
+  profile.emplace(run_speed_mps(), config.limits.max_acceleration_mps2, config.limits.max_jerk_mps3);
   tracking.emplace(config.run, config.limits, order.heading_rad);
   enter(ThrowerState::run, o.now);
   return command;
 }
 
 std::optional<std::string> Thrower::Impl::run_does_not_fit(double hog_distance_m) const {
-  const double needed_m = needed_run_m(config, order.speed_mps) * std::cos(order.heading_rad);
+  const double needed_m = needed_run_m(config, run_speed_mps()) * std::cos(order.heading_rad);
   const double at_hand_m = hog_distance_m - config.release.hog_distance_m;
   if (needed_m <= at_hand_m) return std::nullopt;
   return "the run does not fit: " + std::to_string(needed_m) + " m needed, " + std::to_string(at_hand_m) + " m at hand";

@@ -19,8 +19,16 @@ struct WheelPair {
   double right_radps = 0.0;
 };
 
-WheelPair wheels_of(const PlanarTwist& twist, const BaseGeometry& base);
-PlanarTwist twist_of(const WheelPair& wheels, const BaseGeometry& base);
+constexpr WheelPair wheels_of(const PlanarTwist& twist, const BaseGeometry& base) {
+  const double difference = twist.yaw_rate_radps * base.track_m / 2.0;
+  return {(twist.forward_mps - difference) / base.wheel_radius_m,
+          (twist.forward_mps + difference) / base.wheel_radius_m};
+}
+
+constexpr PlanarTwist twist_of(const WheelPair& wheels, const BaseGeometry& base) {
+  return {base.wheel_radius_m * (wheels.right_radps + wheels.left_radps) / 2.0,
+          base.wheel_radius_m * (wheels.right_radps - wheels.left_radps) / base.track_m};
+}
 
 /// eJe of vpServo, 6 x 2, row by row: maps (forward speed, yaw rate) to b's twist in b, translation first.
 constexpr std::array<double, 12> unicycle_jacobian() { return {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}; }

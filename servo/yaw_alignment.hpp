@@ -2,6 +2,7 @@
 // a standstill.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "servo/thrower_config.hpp"
@@ -25,7 +26,8 @@ class YawAlignment {
   AlignmentStep step(double heading_rad, double rate_radps, Duration dt);
 
  private:
-  double turn(double error_rad, double wanted_radps, double rate_radps);
+  double turn(double error_rad, double wanted_radps, double rate_radps, Duration dt);
+  void learn_lag(double error_rad, double rate_radps, Duration dt);
   double limited(double wanted_radps, double error_rad, double dt_s) const;
   void judge(double error_rad, double rate_radps, Duration dt);
 
@@ -33,6 +35,13 @@ class YawAlignment {
   MotionLimits limits_;
   double target_rad_;
   VanishingPointTask task_;
+  double lag_s_;  ///< the body turns on for so long
+  struct Ended {
+    double error_rad = 0.0;
+    double rate_radps = 0.0;
+  };
+  std::optional<Ended> ended_;  ///< the last turn, until the body stands
+  Duration standing_{};
   double ordered_radps_ = 0.0;
   bool turning_ = false;  ///< false: stands within tolerance, nothing is ordered
   Duration within_{};

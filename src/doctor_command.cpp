@@ -25,16 +25,17 @@ bool is_simulated(const config::Rig& rig) {
   });
 }
 
-std::vector<doctor::Finding> examine_simulated(const config::ThrowerRig& rig) {
+std::vector<doctor::Finding> examine_simulated(const std::string& file) {
   constexpr std::uint64_t seed = 1;
+  const config::ThrowerRig rig = config::load_thrower_rig(file);
   SimulatedRobot robot(
       rig, config::parse_scenario(config::embedded_file("scenarios/practice.yaml"), "practice scenario", seed));
   doctor::SimulatedSite site(robot);
-  return doctor::examine(rig, site);
+  return doctor::examine(config::devices_of(rig), site);
 }
 
-std::vector<doctor::Finding> examine_steel(const config::ThrowerRig& rig) {
-  if (rig.rig.can_interface.empty()) {
+std::vector<doctor::Finding> examine_steel(const config::DeviceRig& rig) {
+  if ((rig.drive || rig.head) && rig.rig.can_interface.empty()) {
     throw config::ConfigError(rig.rig.file, 0, "can.interface", "",
                               "missing; the doctor needs the CAN interface's name, e.g. can0 (or --simulated)");
   }
@@ -45,9 +46,9 @@ std::vector<doctor::Finding> examine_steel(const config::ThrowerRig& rig) {
 }  // namespace
 
 int run_doctor(const DoctorOptions& options) {
-  const config::ThrowerRig rig = config::load_thrower_rig(options.rig);
-  const bool simulated = options.simulated || is_simulated(rig.rig);
-  const auto findings = simulated ? examine_simulated(rig) : examine_steel(rig);
+  const config::DeviceRig rig = config::load_device_rig(options.rig);
+  const bool simulated = options.simulated || (is_simulated(rig.rig) && config::is_thrower(rig));
+  const auto findings = simulated ? examine_simulated(options.rig) : examine_steel(rig);
   if (options.json) {
     fmt::print("{}\n", doctor::json_line(findings, options.rig, simulated));
   } else {

@@ -1,11 +1,15 @@
+#include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
 #include "src/board_command.hpp"
+#include "src/campaign_command.hpp"
 #include "src/config/config_error.hpp"
+#include "src/config/nearest_word.hpp"
 #include "src/demo_command.hpp"
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
@@ -51,6 +55,7 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return pose;
@@ -72,6 +77,7 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
       "Examples:\n"
       "  hogline stones --rig rig.yaml frame.jpg\n"
       "  hogline stones --rig rig.yaml --sequence frame-*.jpg\n"
+      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated (of a sequence: none), 2 wrong use or\n"
       "configuration.");
   return stones;
@@ -111,15 +117,65 @@ CLI::App* add_throw(CLI::App& app, hogline::ThrowOptions& options) {
   auto* command = app.add_subcommand("throw", "the thrower on the simulated rink: align, run, release");
   add_shot(command, options);
   command->add_flag("--json", options.json_only, "print nothing but the JSON object");
+  command->add_flag("--realtime", options.realtime, "in threads against the wall clock, with the latencies");
+  command->add_option(
+      "--learn", options.learn,
+      "file of what releases have taught of the jaws: read if it is there, and written after the throw");
   command->add_option("--fault", options.fault, "inject a fault: KIND@SECONDS of the run, e.g. camera-freeze@1.0")
       ->check(hogline::known_fault);
+  command->add_option("--seer", options.seer, "who looks: vision at rendered pictures, or an oracle with its errors")
+      ->check(CLI::IsMember({"oracle", "rendered"}));
+  command->add_option(
+      "--from", options.from,
+      "a campaign's throw once more, FOLDER/throws.csv:NUMBER; rig, scenario, shot and seed are the row's");
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
+      "  hogline throw --from out/campaign/throws.csv:17\n"
+      "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves.\n"
       "Faults strike KIND@SECONDS after the run begins: camera-* the low camera, drive-* the left wheel.\n"
       "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   return command;
+}
+
+CLI::App* add_campaign(CLI::App& app, hogline::CampaignOptions& options) {
+  auto* campaign = app.add_subcommand("campaign", "many throws on the simulated rink, as a table and a summary");
+  campaign->add_option("--throws", options.throws, "how many there shall be")
+      ->required()
+      ->check(CLI::Range(1, 1000000));
+  campaign->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
+  campaign->add_option("--scenario", options.scenario,
+                       "scenario file (YAML), each throw drawn from its ranges; without it the practice rink");
+  campaign->add_option("--seer", options.seer, "who looks: rendered pictures and vision, or an oracle with its errors")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"oracle", "rendered"}));
+  campaign->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  campaign->add_option("--seed", options.seed, "of the whole campaign, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  campaign->add_option("--speed", options.speed_mps, "of the stones at release, m/s: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  campaign->add_option("--heading-deg", options.heading_deg, "of the shots' lines: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  campaign->add_option("--spin", options.spin_radps, "the stones' rate of turn, rad/s: a number or LOW..HIGH")
+      ->capture_default_str()
+      ->check(hogline::number_or_range);
+  campaign->add_option("--curl", options.curl, "the stones' turn seen from above")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cw", "ccw", "both"}));
+  campaign->add_option("--out", options.out, "folder for the table, the summary and the plots")->capture_default_str();
+  campaign->footer(
+      "Examples:\n"
+      "  hogline campaign --throws 2000 --jobs 2 --out out/oracle\n"
+      "  hogline campaign --throws 50 --seer rendered --jobs 2 --seed 7 --out out/rendered\n"
+      "A campaign that was stopped goes on where it was when it is called again. The same seed gives the same bytes,\n"
+      "however many jobs; DIR/throws.csv has a row a throw.\n"
+      "Exit status: 0 every stone was let go in its window, 1 some were not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  return campaign;
 }
 
 CLI::App* add_demo(CLI::App& app, hogline::ThrowOptions& options) {
@@ -163,6 +219,19 @@ CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
   return faults;
 }
 
+// The parser itself would only say that a word was not expected.
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::ranges::find(known, argv[1]) != known.end()) return;
+  const std::string meant = hogline::config::nearest_word(argv[1], known);
+  throw hogline::config::ConfigError(
+      "command line", 0, "subcommand", argv[1],
+      fmt::format("unknown; {}there are {}", meant.empty() ? "" : "did you mean " + meant + "? ",
+                  fmt::join(known, ", ")));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -182,6 +251,9 @@ int run(int argc, char** argv) {
   const auto* doctor = add_doctor(app, doctor_options);
   hogline::FaultsOptions faults_options;
   const auto* faults = add_faults(app, faults_options);
+  hogline::CampaignOptions campaign_options;
+  const auto* campaign = add_campaign(app, campaign_options);
+  check_subcommand(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -193,6 +265,7 @@ int run(int argc, char** argv) {
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
   if (*faults) return hogline::run_faults(faults_options);
+  if (*campaign) return hogline::run_campaign(campaign_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;
 }

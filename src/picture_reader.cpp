@@ -18,16 +18,12 @@ using hw::files::Recording;
 
 constexpr double usual_rate_hz = 60.0;
 
-// A picture that is none is wrong use; one that another camera took is a picture in which nothing can be estimated.
+// One picture that can not be read, or that another camera took, is one in which nothing is estimated: a run of a
+// thousand is not lost for it.
 Picture read_file(const hw::files::RecordedFrame& frame, cv::Size size) {
-  using hw::files::ImageErrorKind;
   hw::files::LoadedImage loaded = hw::files::load_image(frame.path, size);
   Picture picture{.name = frame.path, .bgr = loaded.bgr, .stamp = Stamp{frame.time}, .problem = {}};
-  if (!loaded.error) return picture;
-  if (loaded.error->kind != ImageErrorKind::wrong_size && loaded.error->kind != ImageErrorKind::wrong_format) {
-    throw config::ConfigError(frame.path, 0, "", "", loaded.error->what);
-  }
-  picture.problem = loaded.error->what;
+  if (loaded.error) picture.problem = loaded.error->what;
   return picture;
 }
 

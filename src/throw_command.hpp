@@ -16,7 +16,11 @@ struct ThrowOptions {
   std::uint64_t seed = 1;
   std::string out = "out/throw";
   std::string fault;  ///< KIND@SECONDS, empty for none
+  std::string seer;   ///< oracle, rendered; empty: the campaign's, or rendered
+  std::string from;   ///< FOLDER/throws.csv:NUMBER: a campaign's throw in the place of all that says what is thrown
   bool json_only = false;
+  bool realtime = false;  ///< against the wall clock, in threads
+  std::string learn;      ///< file of what releases have taught; empty: the rig file's word, nothing is kept
 };
 
 /// Empty when `text` is a fault that can be injected, else what is allowed: a check for the command line.

@@ -8,10 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <random>
 
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
+#include "src/throwing/realtime_throw.hpp"
+#include "src/throwing/release_memory.hpp"
 #include "src/throwing_report.hpp"
 
 namespace hogline {
@@ -24,12 +27,40 @@ void check_number(const char* option, double value, double low, double high, con
 }
 
 // Before the throw, not after it.
-void check_folder(const std::string& folder) {
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
-    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
+void check_learn(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (std::filesystem::is_directory(path) || ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0) {
+    throw config::ConfigError("command line", 0, "--learn", path, "must be a file in a folder that can be written to");
   }
+}
+
+servo::ReleaseKnowledge known(const std::string& path, const servo::ReleaseConfig& config) {
+  return load_release_knowledge(path).value_or(servo::prior_of(config));
+}
+
+// The jaws tell of their delay; of the stone's speed the skip that tracks it tells. On the simulated rink its report is
+// the truth with the scatter of such a track.
+servo::ReleaseFeedback feedback_of(const ThrowResult& result, const servo::ShotOrder& order, std::uint64_t seed) {
+  constexpr double delay_sigma_s = 0.0025;  // jitter of the jaws, and their polled travel
+  constexpr double track_sigma_mps = 0.010;
+  servo::ReleaseFeedback feedback;
+  if (result.measured_delay_s) feedback.delay_s = result.measured_delay_s;
+  feedback.delay_sigma_s = delay_sigma_s;
+  if (result.release && result.freed_at_speed_mps) {
+    std::mt19937_64 random(seed);
+    const double tracked_mps = order.speed_mps + result.release->speed_error_mps +
+                               track_sigma_mps * std::normal_distribution<double>()(random);
+    feedback.drag_mps = *result.freed_at_speed_mps - tracked_mps;
+    feedback.drag_sigma_mps = track_sigma_mps;
+  }
+  return feedback;
+}
+
+void keep_lesson(const std::string& path, const ThrowRequest& request, const ThrowResult& result) {
+  const servo::ReleaseKnowledge before = known(path, request.rig.thrower.release);
+  const auto lesson = servo::learn(before, feedback_of(result, request.order, request.scenario.seed));
+  if (!lesson.refused.empty()) fmt::print(stderr, "not learnt: {}\n", lesson.refused);
+  save_release_knowledge(path, lesson.knowledge);
 }
 
 // One line a state, with the time at which it began; nothing more often, so that a log file stays readable.
@@ -48,6 +79,17 @@ class StateTeller {
 
 }  // namespace
 
+void check_folder(const std::string& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
+    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
+  }
+}
+
+Eyes eyes_of(const std::string& seer) { return seer == "oracle" ? Eyes::oracle : Eyes::vision; }
+
+// The folder before the throw, not after it.
 ThrowRequest make_request(const ThrowOptions& options) {
   check_folder(options.out);
   ThrowRequest request;
@@ -66,15 +108,24 @@ ThrowRequest make_request(const ThrowOptions& options) {
                    .heading_rad = options.heading_deg * std::numbers::pi / 180.0,
                    .curl = options.curl == "cw" ? servo::Curl::clockwise : servo::Curl::counter_clockwise,
                    .spin_radps = options.spin_radps};
+  if (!options.learn.empty()) {
+    check_learn(options.learn);
+    request.rig.thrower.release =
+        servo::with_knowledge(request.rig.thrower.release, known(options.learn, request.rig.thrower.release));
+  }
+  request.eyes = eyes_of(options.seer);
   if (!options.fault.empty()) request.fault = parse_fault(options.fault);
   return request;
 }
 
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request) {
+  fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   const auto begin = std::chrono::steady_clock::now();
-  ThrowOutcome outcome = throw_stone(request, StateTeller());
+  ThrowOutcome outcome =
+      options.realtime ? throw_in_real_time(request, StateTeller()) : throw_stone(request, StateTeller());
   outcome.result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_report(options.out, request, outcome);
+  if (!options.learn.empty()) keep_lesson(options.learn, request, outcome.result);
   return outcome;
 }
 

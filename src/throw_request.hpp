@@ -9,6 +9,12 @@ namespace hogline {
 /// Reads rig and scenario (the built-in ones where none is named) and checks the order. Throws ConfigError.
 ThrowRequest make_request(const ThrowOptions& options);
 
+/// "oracle" or "rendered".
+Eyes eyes_of(const std::string& seer);
+
+/// Makes the folder of --out. Throws ConfigError when it can not be written to.
+void check_folder(const std::string& folder);
+
 /// Runs the throw with progress on stderr, and writes its report; wall_time_s is filled in.
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request);
 

@@ -19,6 +19,10 @@ MAY_INCLUDE = {
 # Adapters know the ports and themselves, not each other; simulated devices know no adapter.
 ADAPTERS = ["socketcan", "canopen", "modbus", "dsp3000", "aravis", "files", "link", "sim"]
 
+# The supervisor knows no controller: only what both sides exchange.
+SUPERVISOR_MAY_INCLUDE = ["servo/safety", "servo/command.hpp", "servo/observation.hpp", "servo/thrower_config.hpp",
+                          "servo/unicycle.hpp", "vision/percepts"]
+
 PURE_FORBIDS = {
     r"_clock::now": "reads a clock",
     r"std::thread|std::jthread|std::mutex|std::async": "uses threads",
@@ -36,6 +40,9 @@ def allowed(path, target):
     top = path.parts[0]
     if not any(target == p or target.startswith(p + "/") for p in MAY_INCLUDE[top]):
         return f"{top}/ must not include {target}"
+    if path.parts[:2] == ("servo", "safety"):
+        if not any(target == p or target.startswith(p + "/") for p in SUPERVISOR_MAY_INCLUDE):
+            return f"servo/safety must not include {target}: the supervisor knows no controller"
     if top == "hw" and len(path.parts) > 2 and target.startswith("hw/"):
         adapter, parts = path.parts[1], target.split("/")
         if len(parts) > 2 and parts[1] in ADAPTERS and parts[1] != adapter:

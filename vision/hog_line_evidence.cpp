@@ -1,6 +1,7 @@
 #include "vision/hog_line_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -19,10 +20,17 @@ constexpr double farthest_m = 8.0;  // from the camera, of the centre line
 constexpr double surely_seen_m = 5.5;
 constexpr int fewest_cuts = 16;
 constexpr double least_seen = 0.3;
-constexpr double most_bare = 0.3;
+constexpr double most_bare = 0.12;
+constexpr double outermost_m = 0.35;  // the outermost piece of a half
+constexpr int fewest_of_an_end = 3;
+constexpr double most_bare_end = 0.6;
 constexpr int fewest_of_a_half = 8;
 constexpr int fewest_beyond = 6;
 constexpr double least_beyond = 0.2;
+constexpr double most_bare_beyond = 0.34;
+constexpr double least_ice_beyond = 0.4;
+constexpr int fewest_of_a_ring = 5;
+constexpr double most_bare_ring = 0.5;
 
 /// Cuts along a line, evenly spaced in the picture, and where they were made.
 struct Cuts {
@@ -65,7 +73,12 @@ void weigh_halves(const LineCutter& cutter, HogLineEvidence& evidence) {
   const Cuts hog =
       cut_along(cutter, -half_width_m, half_width_m, hog_line_at, [](double x) { return std::abs(x) > clear_m; });
   const std::vector<LineLook> looks = looks_of(hog.cuts);
-  for (std::size_t i = 0; i < looks.size(); ++i) count(looks[i], hog.at_m[i] < 0.0 ? evidence.left : evidence.right);
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const bool left = hog.at_m[i] < 0.0;
+    count(looks[i], left ? evidence.left : evidence.right);
+    if (std::abs(hog.at_m[i]) > half_width_m - outermost_m)
+      count(looks[i], left ? evidence.left_end : evidence.right_end);
+  }
 }
 
 // Beside rings and other lines; they are of other colours.
@@ -87,32 +100,136 @@ void weigh_centre(const LineCutter& cutter, HogLineEvidence& evidence) {
   }
 }
 
-// The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
-// between the ice around it and the white ring inside it, wherever one looks.
-bool house_beyond(const LineCutter& cutter) {
-  const Eigen::Vector2d tee(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
-  const double ice_m = rules::outer_ring_radius_m + 0.25;
-  const double ring_m = 0.5 * (rules::outer_ring_radius_m + rules::middle_ring_radius_m);
-  const double white_m = 0.5 * (rules::middle_ring_radius_m + rules::inner_ring_radius_m);
-  constexpr int directions = 17;
+using Light = Eigen::Vector3f;
+
+// The same stuff in whatever light: lamps and the lens make ice lighter and darker, but hardly of another colour.
+bool like_ice(const Light& seen, const Light& ice) {
+  const float ratio = seen.norm() / std::max(ice.norm(), 1e-6F);
+  return ratio > 0.55F && ratio < 1.6F && seen.dot(ice) > 0.985F * seen.norm() * ice.norm();
+}
+
+// Ice beside the hog line; nothing where no cut shows the line.
+std::optional<Light> ice_beside(const LineCutter& cutter) {
+  const Cuts hog =
+      cut_along(cutter, -half_width_m, half_width_m, hog_line_at, [](double x) { return std::abs(x) > clear_m; });
+  const std::vector<LineLook> looks = looks_of(hog.cuts);
+  Light sum = Light::Zero();
+  for (std::size_t i = 0; i < looks.size(); ++i) sum += looks[i] == LineLook::line ? hog.cuts[i].ice : Light::Zero();
+  if (sum.isZero()) return std::nullopt;
+  return sum / static_cast<float>(std::ranges::count(looks, LineLook::line));
+}
+
+std::optional<Light> light_on(const LineCutter& cutter, const Eigen::Vector2d& place) {
+  const auto pixel = cutter.camera().project_paint(place);
+  return pixel ? cutter.light_at(*pixel, {1.0, 0.0}) : std::nullopt;
+}
+
+double share_of_ice_beyond(const LineCutter& cutter, const Light& ice) {
   int looked = 0;
-  int rings = 0;
-  for (int k = 1; k < directions; ++k) {
-    const double angle = -std::numbers::pi * (k - 0.25) / directions;  // none along the centre line
-    const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
-    const auto look = [&](double radius) -> std::optional<Eigen::Vector3f> {
-      const auto pixel = cutter.camera().project_paint(tee + radius * out);
-      return pixel ? cutter.light_at(*pixel, {1.0, 0.0}) : std::nullopt;
-    };
-    const auto ice = look(ice_m);
-    const auto ring = look(ring_m);
-    const auto white = look(white_m);
-    if (!ice || !ring || !white) continue;
-    ++looked;
-    const float darker = -(*ring - *ice).minCoeff();
-    if (darker > 0.08F * ice->norm() && -(*ring - *white).minCoeff() > 0.5F * darker) ++rings;
+  int seen = 0;
+  for (const double y : {0.5, 0.9, 1.4, 2.0, 2.8}) {
+    for (double x = -1.75; x < 2.0; x += 0.5) {
+      const auto light = light_on(cutter, {x, rules::tee_to_hog_m + rules::hog_line_width_m + y});
+      if (!light) continue;
+      ++looked;
+      seen += like_ice(*light, ice) ? 1 : 0;
+    }
   }
-  return looked >= 8 && rings > 0.75 * looked;
+  return looked > 0 ? static_cast<double>(seen) / looked : 0.0;
+}
+
+// Our outer ring, on either side of its edge.
+void weigh_ring(const LineCutter& cutter, const Light& ice, LineStretch& ring) {
+  constexpr int directions = 48;
+  constexpr double off_m = 0.12;
+  constexpr float unlike = 0.12F;  // of the ice's light, in some colour
+  const double camera_y_m = cutter.camera().eMc().translation().y();
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2.0 * std::numbers::pi * (k + 0.5) / directions;
+    const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
+    if (rules::outer_ring_radius_m * out.y() < camera_y_m + 0.1) continue;
+    const auto outside = light_on(cutter, (rules::outer_ring_radius_m + off_m) * out);
+    const auto inside = light_on(cutter, (rules::outer_ring_radius_m - off_m) * out);
+    if (!outside || !inside) continue;
+    ++ring.looked;
+    if (!like_ice(*outside, ice)) continue;
+    const float darker = -(*inside - *outside).minCoeff();
+    if (darker > unlike * outside->norm()) ++ring.seen;
+    if (darker < 0.5F * unlike * outside->norm() && like_ice(*inside, ice)) ++ring.bare;
+  }
+}
+
+// What lies where a ring should be, less the ice on either side of it; nothing where something hides that.
+using Look = std::optional<Light>;
+
+// Paint of one colour, all round. Noise, mirror images and logos are of many colours, or lie on one side only.
+template <std::size_t directions>
+bool is_a_ring(const std::array<Look, directions>& looks, float ice) {
+  constexpr std::size_t sectors = 3;
+  constexpr float least_contrast = 0.15F;  // of the ice's light
+  constexpr float most_lighter = 0.1F;
+  constexpr int fewest = 5;
+  constexpr double least_share = 0.5;
+  constexpr double least_share_of_a_sector = 0.34;
+  Light paint = Light::Zero();
+  int all = 0;
+  for (const Look& look : looks) {
+    if (!look) continue;
+    paint += *look;
+    ++all;
+  }
+  if (all < fewest) return false;
+  paint /= static_cast<float>(all);
+  if (paint.norm() < least_contrast * ice || paint.maxCoeff() > most_lighter * ice) return false;
+  std::array<int, sectors> seen{};
+  std::array<int, sectors> alike{};
+  for (std::size_t k = 0; k < directions; ++k) {
+    if (!looks[k]) continue;
+    ++seen[k * sectors / directions];
+    if (looks[k]->dot(paint) > 0.5F * std::max(paint.squaredNorm(), paint.norm() * looks[k]->norm())) {
+      ++alike[k * sectors / directions];
+    }
+  }
+  const auto all_round = [&](std::size_t k) { return seen[k] < 2 || alike[k] > least_share_of_a_sector * seen[k]; };
+  return alike[0] + alike[1] + alike[2] > least_share * all && all_round(0) && all_round(1) && all_round(2);
+}
+
+// The other end's house lies beyond its hog line, ours before it: the half of its outer ring that faces us lies darker
+// between the ice around it and the white ring inside it, wherever one looks. Far off, where a ring is some rows high,
+// it is looked for some rows higher and lower. Logos lie to the left, to the right or before us: rings on all sides.
+// Who stands before it hides a part.
+bool house_beyond(const LineCutter& cutter, const Light& known_ice) {
+  const Eigen::Vector2d tee(0.0, 2.0 * rules::tee_to_hog_m + rules::hog_line_width_m);
+  constexpr std::array<double, 3> radii{rules::outer_ring_radius_m + 0.25,
+                                        0.5 * (rules::outer_ring_radius_m + rules::middle_ring_radius_m),
+                                        0.5 * (rules::middle_ring_radius_m + rules::inner_ring_radius_m)};
+  constexpr std::size_t directions = 15;
+  constexpr int rows = 7;  // higher and lower
+  std::array<std::array<std::optional<Eigen::Vector2d>, 3>, directions> pixels;
+  for (std::size_t k = 0; k < directions; ++k) {
+    const double angle =
+        -std::numbers::pi * (static_cast<double>(k) + 0.75) / directions;  // none along the centre line
+    const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      pixels[k][i] = cutter.camera().project_paint(tee + radii[i] * out);
+    }
+  }
+  for (int row = -rows; row <= rows; ++row) {
+    std::array<Look, directions> looks;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const auto& [ice_at, ring_at, white_at] = pixels[k];
+      const auto look = [&](const std::optional<Eigen::Vector2d>& pixel) {
+        return pixel ? cutter.light_at(*pixel + Eigen::Vector2d(0.0, row), {1.0, 0.0}) : std::nullopt;
+      };
+      const auto ice = look(ice_at);
+      const auto ring = look(ring_at);
+      const auto white = look(white_at);
+      if (!ice || !ring || !white || !like_ice(*ice, known_ice) || !like_ice(*white, known_ice)) continue;
+      looks[k] = *ring - 0.5F * (*ice + *white);
+    }
+    if (is_a_ring(looks, known_ice.norm())) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -122,7 +239,11 @@ HogLineEvidence weigh_hog_line(const Picture& picture, const ResponseCurve& resp
   HogLineEvidence evidence;
   weigh_halves(cutter, evidence);
   weigh_centre(cutter, evidence);
-  evidence.house_beyond = house_beyond(cutter);
+  if (const auto ice = ice_beside(cutter)) {
+    evidence.ice_beyond = share_of_ice_beyond(cutter, *ice);
+    weigh_ring(cutter, *ice, evidence.ring);
+    evidence.house_beyond = house_beyond(cutter, *ice);
+  }
   return evidence;
 }
 
@@ -135,11 +256,22 @@ std::string doubt(const HogLineEvidence& evidence) {
       return "what lies across ends within the sheet";
     }
   }
+  for (const LineStretch& end : {evidence.left_end, evidence.right_end}) {
+    if (end.looked >= fewest_of_an_end && end.bare > most_bare_end * end.looked) {
+      return "what lies across ends within the sheet";
+    }
+  }
   if (evidence.centre.looked >= fewest_cuts && evidence.centre.seen < least_seen * evidence.centre.looked) {
     return "the centre line is not where the pose puts it";
   }
-  if (evidence.beyond.looked >= fewest_beyond && evidence.beyond.seen < least_beyond * evidence.beyond.looked) {
+  if (evidence.ice_beyond < least_ice_beyond) return "no ice lies beyond what lies across";
+  const LineStretch& beyond = evidence.beyond;
+  if (beyond.looked >= fewest_beyond && beyond.seen < least_beyond * beyond.looked &&
+      beyond.bare > most_bare_beyond * beyond.looked) {
     return "the centre line does not go on beyond what lies across";
+  }
+  if (evidence.ring.looked >= fewest_of_a_ring && evidence.ring.bare > most_bare_ring * evidence.ring.looked) {
+    return "bare ice lies where the rings should be";
   }
   if (evidence.house_beyond) return "a house lies beyond the line: it is the other end's";
   return {};

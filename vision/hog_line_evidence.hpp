@@ -21,8 +21,12 @@ struct LineStretch {
 struct HogLineEvidence {
   LineStretch left;           ///< of the hog line, across one half of the sheet
   LineStretch right;          ///< the same of the other half
+  LineStretch left_end;       ///< the outermost piece of it
+  LineStretch right_end;      ///< the same of the other half
   LineStretch centre;         ///< of the centre line, outside the house
   LineStretch beyond;         ///< of the centre line, beyond the hog line
+  LineStretch ring;           ///< of the outer ring's edge
+  double ice_beyond = 0.0;    ///< share of the sheet beyond the hog line that looks like the ice before it
   bool house_beyond = false;  ///< rings lie behind the line: it is the other end's
 };
 

@@ -31,7 +31,23 @@ double lifted_error_m(const Pose& eMc, const CameraSetup& setup) {
   return std::max(0.0, lifted_m) / setup.mount.z_m * std::abs(rules::tee_to_hog_m - eMc.translation().y());
 }
 
+// With the right response curve edges bleed by hundredths of a pixel; a gamma of 1 taken for 2.2, or the other way
+// round, moves them by a quarter to half of one (measured on rendered sheets).
+constexpr double most_bleed_px = 0.15;
+constexpr double sure_sigmas = 2.5;
+
+// What edges that all lie to one side do to the distance; within its own sigma it is noise.
+double bleed_error_m(const SheetFitResult& result) {
+  return std::abs(result.bleed_px) > result.bleed_sigma_px ? 1.5 * std::abs(result.bleed_y_m) : 0.0;
+}
+
 }  // namespace
+
+std::string doubt_of_response(const SheetFitResult& result) {
+  const double bleed_px = std::abs(result.bleed_px);
+  if (bleed_px < most_bleed_px || bleed_px < sure_sigmas * result.bleed_sigma_px) return {};
+  return "all edges lie too far to one side: the camera's gamma is not as the rig says";
+}
 
 std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup) {
   const Eigen::Vector3d up = bMc(setup.mount).linear() * eMc.linear().row(2).transpose();
@@ -47,7 +63,8 @@ std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup) {
 void fill_low_percept(const SheetFitResult& result, const CameraSetup& setup, SheetPosePercept& percept) {
   fill_percept(result, percept);
   percept.hog_distance_sigma_m =
-      std::hypot(result.hog_distance_sigma_m, lean_error_m(result, setup), lifted_error_m(result.eMc, setup));
+      std::hypot(result.hog_distance_sigma_m,
+                 std::hypot(lean_error_m(result, setup), lifted_error_m(result.eMc, setup), bleed_error_m(result)));
   percept.sigma.y_m = percept.hog_distance_sigma_m;
 }
 

@@ -19,6 +19,9 @@ inline constexpr double height_sigma_m = 0.003;
 /// Why the camera can not be where a fit puts it; empty when it can.
 std::string doubt_of_mount(const Pose& eMc, const CameraSetup& setup);
 
+/// Why the picture's response curve can not be the setup's; empty when it can.
+std::string doubt_of_response(const SheetFitResult& result);
+
 /// All but the stamp. Sigmas are the fit's and what sidelines that are not laid quite parallel do to the lean.
 void fill_low_percept(const SheetFitResult& result, const CameraSetup& setup, SheetPosePercept& percept);
 

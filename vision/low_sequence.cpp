@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/fit/paint.hpp"
 #include "vision/fit/sheet_track.hpp"
 #include "vision/geometry/sheet_camera.hpp"
 #include "vision/low_percept.hpp"
@@ -19,12 +20,20 @@ constexpr double any_sigma_m = 1e6;     // the tracker goes on where the distanc
 constexpr double most_sigma_m = 0.3;    // of what is reported as seen
 constexpr double most_across_m = 0.05;  // of the place across the sheet, beside a dead-reckoned distance
 constexpr double rock_rad = 0.002;      // of pitch, from frame to frame
+constexpr double standing_px = 1.0;     // a picture that has moved by less shows nothing new of the pitch
 constexpr double roll_rad = 0.0005;
 constexpr double heave_m = 0.001;
 constexpr double least_sigma_m = 0.001;
 constexpr double least_sigma_rad = 0.0003;
 constexpr int fewest_hog_places = 12;
 constexpr double least_hog_share = 0.3;
+
+ChoiceWishes wishes() {
+  const auto& features = paint_features();
+  const auto hog =
+      std::find_if(features.begin(), features.end(), [](const PaintFeature& f) { return f.name == "hog_line"; });
+  return {.certain_feature = static_cast<int>(hog - features.begin()), .certain_places = 24, .avoid_hidden = true};
+}
 
 const FittedFeature* hog_line_of(const SheetFitResult& result) {
   const auto f = std::find_if(result.features.begin(), result.features.end(),
@@ -36,18 +45,20 @@ const FittedFeature* hog_line_of(const SheetFitResult& result) {
 
 struct LowSequence::Impl {
   Impl(const CameraSetup& camera_setup, double exposure)
-      : setup(camera_setup), lens(camera_setup.intrinsics), exposure_s(exposure), view(setup), track(setup) {
+      : setup(camera_setup), lens(camera_setup.intrinsics), exposure_s(exposure), view(setup), track(setup, wishes()) {
     percept.features.reserve(most_features);
   }
 
   void clear(Stamp stamp);
   bool follow(const cv::Mat& image, Stamp stamp);
+  const SheetFitResult& follow_at_any_speed(const cv::Mat& image, Stamp stamp);
   bool take(const SheetFitResult& result, Stamp stamp);
   bool hog_line_seen(const SheetFitResult& result) const;
   bool take_blind(const SheetFitResult& result, Stamp stamp);
   void acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch);
   bool dead_reckon(const cv::Mat& image, Stamp stamp);
-  const SheetFitResult& begin(const cv::Mat& image, const Pose& near_by);
+  SheetFitStart track_start(const Pose& near_by) const;
+  void remember_pitch();
   SheetPrediction predict_camera(Stamp stamp) const;
   LowViewPrediction predict_body(Stamp stamp) const;
   bool hog_line_below(const PlanarPose& body) const;
@@ -64,6 +75,7 @@ struct LowSequence::Impl {
   Pose eMc;          // at the newest place
   PlanarPose body;   // there
   bool tracking = false;
+  std::optional<PitchMemory> pitch;
   std::optional<double> width_m;
   std::optional<Stamp> last_stamp;
   SheetPosePercept percept;
@@ -118,18 +130,33 @@ bool LowSequence::Impl::give_up(std::string why) {
 bool LowSequence::Impl::follow(const cv::Mat& image, Stamp stamp) {
   if (!tracking) return give_up("no frame before shows the hog line");
   if (seconds(stamp - across.last_stamp()) > longest_gap_s) return give_up("the frames before are too old");
-  const SheetFitResult& result = track.follow(image, predict_camera(stamp));
+  const SheetFitResult& result = follow_at_any_speed(image, stamp);
   diagnosis.places = track.diagnosis().places;
   diagnosis.search_px = track.diagnosis().search_px;
   diagnosis.innovation = track.diagnosis().innovation;
   if (!take(result, stamp)) return false;
+  if (track.diagnosis().moved_px > standing_px) remember_pitch();
   ++diagnosis.frames_tracked;
   return true;
+}
+
+// A step of full speed between two frames is too long for one search as long as the speed is not known.
+const SheetFitResult& LowSequence::Impl::follow_at_any_speed(const cv::Mat& image, Stamp stamp) {
+  const SheetFitResult& result = track.follow(image, predict_camera(stamp));
+  if (result.ok || along.known()) return result;
+  for (const double speed_mps : {0.0, 3.0}) {
+    SheetPrediction other = predict_camera(stamp);
+    const double ahead_m = (speed_mps - along.speed_mps(stamp)) * seconds(stamp - along.last_stamp());
+    other.eMc.translation().y() += ahead_m;
+    if (track.follow(image, other).ok) break;
+  }
+  return result;
 }
 
 bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
   if (!result.ok) return give_up(result.reason);
   if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return give_up(std::move(why));
+  if (std::string why = doubt_of_response(result); !why.empty()) return give_up(std::move(why));
   if (!hog_line_seen(result)) {
     if (!take_blind(result, stamp)) return false;
   } else {
@@ -177,7 +204,8 @@ bool LowSequence::Impl::dead_reckon(const cv::Mat& image, Stamp stamp) {
   const RunPlace reckoned = place(stamp);
   if (!hog_line_below(reckoned.body)) return false;
   const std::string lost = diagnosis.lost;
-  tracking = take(begin(image, predict_camera(stamp).eMc), stamp);
+  tracking = take(track.begin(image, track_start(predict_camera(stamp).eMc)), stamp);
+  if (tracking) remember_pitch();
   diagnosis.lost = lost;
   if (tracking) return true;
   percept.ok = true;
@@ -209,10 +237,15 @@ void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch
   eMc = from_row_major(percept.eMc);
   body = percept.body;
 
-  tracking = begin(image, eMc).ok;
+  tracking = track.begin(view.fit(), track_start(eMc)).ok;
+  remember_pitch();
 }
 
-const SheetFitResult& LowSequence::Impl::begin(const cv::Mat& image, const Pose& near_by) {
+void LowSequence::Impl::remember_pitch() {
+  pitch = {track.result().eMc, track.diagnosis().pitch_offset_rad, track.diagnosis().pitch_sigma_rad, rock_rad};
+}
+
+SheetFitStart LowSequence::Impl::track_start(const Pose& near_by) const {
   SheetFitStart start;
   start.eMc = near_by;
   start.search_px = acquired_search_px;
@@ -221,7 +254,7 @@ const SheetFitResult& LowSequence::Impl::begin(const cv::Mat& image, const Pose&
   start.pitch_sigma_rad = lean_sigma_rad;
   start.roll_sigma_rad = low_mount::roll_sigma_rad;
   start.height_sigma_m = low_mount::height_sigma_m;
-  return track.begin(image, start);
+  return start;
 }
 
 RunPlace LowSequence::Impl::place(Stamp stamp) const {
@@ -246,6 +279,7 @@ LowViewPrediction LowSequence::Impl::predict_body(Stamp stamp) const {
 SheetPrediction LowSequence::Impl::predict_camera(Stamp stamp) const {
   const RunPlace there = place(stamp);
   SheetPrediction prediction;
+  prediction.pitch = pitch;
   prediction.eMc = eMb(there.body) * eMb(body).inverse() * eMc;
   const Eigen::Matrix3d eRc = prediction.eMc.linear();
   const Eigen::Matrix3d eRb = eMb(there.body).linear();

@@ -116,14 +116,17 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
   return nothing;
 }
 
+const SheetFit& LowView::fit() const { return impl_->fit; }
+
 Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& points,
                               std::optional<double> known_width_m) const {
-  const auto vote = vote_for_lean(points, h.hog, h.centre_x_m, view);
+  const auto vote = vote_for_lean(points, h.hog, h.centre_at, view);
   if (!vote) return {.body = h.body, .width_m = known_width_m ? known_width_m : h.width_m};
-  Start start{.body = body_before(h.hog, h.centre_x_m, vote->lean_rad, view),
+  Start start{.body = body_before(h.hog, h.centre_at, vote->lean_rad, view),
               .width_m = known_width_m,
               .lean_rad = vote->lean_rad,
               .lean_sigma_rad = std::clamp(vote->sigma_rad, least_lean_sigma_rad, lean_sigma_rad)};
+  start.body.y_m += vote->ring_shift_m;
   if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
   return start;
 }
@@ -186,6 +189,7 @@ SheetPosePercept LowView::Impl::refine(const cv::Mat& image, const Start& start,
 
 // Why a fit that converged is not believed.
 std::string LowView::Impl::doubt(const SheetFitResult& result, const Start& start) const {
+  if (std::string why = doubt_of_response(result); !why.empty()) return why;
   if (std::string why = doubt_of_mount(result.eMc, setup); !why.empty()) return why;
   const double far_m = rules::tee_to_hog_m - start.body.y_m;
   const double slack_m = 0.05 + 4.0 * lean_sigma_rad * far_m * far_m / setup.mount.z_m;

@@ -12,6 +12,8 @@
 
 namespace hogline::vision {
 
+class SheetFit;
+
 /// What is known before the frame: from the near view, from the last frame and odometry. Nothing of it is needed.
 struct LowViewPrediction {
   std::optional<double> sheet_width_m;  ///< as the near view measured it
@@ -36,6 +38,9 @@ class LowView {
   /// One frame on its own, or with a prediction. `image` as for NearView::acquire.
   SheetPosePercept acquire(const cv::Mat& image, Stamp stamp, const LowViewPrediction& prediction = {},
                            LowViewSketch* sketch = nullptr);
+
+  /// The fit behind the last acquire() that was ok, for a tracker to take over.
+  const SheetFit& fit() const;
 
  private:
   struct Impl;

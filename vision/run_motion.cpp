@@ -16,14 +16,22 @@ constexpr double jerk_sigma_mps3 = 2.0;
 constexpr double sway_mps = 0.02;  // a camera half a metre up on a body that rocks is as much faster or slower
 constexpr double across_sigma_mps2 = 0.2;
 constexpr double yaw_acceleration_sigma_radps2 = 0.2;
-constexpr double fastest_mps = 3.5;
-constexpr double unknown_yaw_rate_radps = 0.2;
+/// What a rate may be before any place is known.
+struct Rate {
+  double mean;
+  double sigma;
+};
+constexpr Rate any_speed_mps{1.75, 1.05};  // from rest to 3.5 m/s
+constexpr Rate any_sideways_mps{0.0, 0.35};
+constexpr Rate any_yaw_rate_radps{0.0, 0.2};
 
 /// Value, rate and half the rate's change, at the newest place.
 class Path {
  public:
   /// The third number is zero within this; what it leaves out bends the path by `bend` * t^power.
-  Path(double rate_change_sigma, double bend, int power) : bend_(bend), power_(power) {
+  Path(const Rate& rate, double rate_change_sigma, double bend, int power) : bend_(bend), power_(power) {
+    information_(1, 1) = 1.0 / (rate.sigma * rate.sigma);
+    pull_[1] = rate.mean * information_(1, 1);
     information_(2, 2) = 4.0 / (rate_change_sigma * rate_change_sigma);
   }
 
@@ -55,7 +63,7 @@ class Path {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
 
-Path along_path() { return {acceleration_sigma_mps2, jerk_sigma_mps3 / 6.0, 3}; }
+Path along_path() { return {any_speed_mps, acceleration_sigma_mps2, jerk_sigma_mps3 / 6.0, 3}; }
 
 }  // namespace
 
@@ -72,17 +80,9 @@ void RunMotion::add(Stamp stamp, const RunPlace& place) {
 RunPlace RunMotion::at(Stamp stamp) const {
   assert(!empty() && stamp >= last_stamp());
   const double dt_s = seconds(stamp - last_stamp());
-  RunPlace there = places_[count_ - 1].place;
-  if (!known()) {
-    there.body.y_m += 0.5 * fastest_mps * dt_s;
-    there.sigma.y_m = std::hypot(there.sigma.y_m, 0.3 * fastest_mps * dt_s);
-    there.sigma.x_m = std::hypot(there.sigma.x_m, 0.1 * fastest_mps * dt_s);
-    there.sigma.yaw_rad = std::hypot(there.sigma.yaw_rad, unknown_yaw_rate_radps * dt_s);
-    return there;
-  }
-  Path x{across_sigma_mps2, 0.0, 3};
+  Path x{any_sideways_mps, across_sigma_mps2, 0.0, 3};
   Path y = along_path();
-  Path yaw{yaw_acceleration_sigma_radps2, 0.0, 3};
+  Path yaw{any_yaw_rate_radps, yaw_acceleration_sigma_radps2, 0.0, 3};
   for (std::size_t i = 0; i < count_; ++i) {
     const double t = seconds(places_[i].stamp - last_stamp());
     const RunPlace& p = places_[i].place;
@@ -97,7 +97,6 @@ RunPlace RunMotion::at(Stamp stamp) const {
 
 double RunMotion::speed_mps(Stamp stamp) const {
   assert(!empty());
-  if (!known()) return 0.5 * fastest_mps;
   Path y = along_path();
   for (std::size_t i = 0; i < count_; ++i) {
     const RunPlace& p = places_[i].place;

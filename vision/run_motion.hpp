@@ -16,8 +16,8 @@ struct RunPlace {
   PlanarSigma sigma;
 };
 
-/// Weighted least squares over the last places; allocates nothing. A run's accelerations are known beforehand to be
-/// small, so that few places do not invent them.
+/// Weighted least squares over the last places; allocates nothing. A run's speeds and accelerations are known
+/// beforehand to be bounded, so that few places do not invent them.
 class RunMotion {
  public:
   static constexpr std::size_t most_places = 12;
@@ -28,7 +28,8 @@ class RunMotion {
   void add(Stamp stamp, const RunPlace& place);
 
   bool empty() const { return count_ == 0; }
-  /// The motion can be told from the places; before that a body at rest up to a run at full speed is expected.
+  /// The motion can be told from the places alone. Before that (and far off, where places are unsure) a body at rest up
+  /// to a run at full speed is expected.
   bool known() const { return count_ >= 3; }
   /// Precondition: not empty.
   Stamp last_stamp() const { return places_[count_ - 1].stamp; }

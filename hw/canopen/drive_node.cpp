@@ -11,9 +11,10 @@
 namespace hogline::hw {
 namespace {
 
-// One TPDO1 a period of time is right. A doubled frame now and then is forgiven: this much of a surplus is forgotten
-// each period, and at this surplus somebody else sends it too. Frames that were missing may come late and all at once,
-// as far as the feedback's timeout allows.
+// One TPDO1 a period of time is right, by the frames' own stamps: when they were read says nothing, for a program that
+// is held up reads several at once. A doubled frame now and then is forgiven: this much of a surplus is forgotten each
+// period, and at this surplus somebody else sends it too. Frames that were missing may come late and all at once, as
+// far as the feedback's timeout allows.
 constexpr double forgotten_surplus = 0.1;
 constexpr double most_surplus = 4.0;
 
@@ -68,6 +69,7 @@ void DriveNode::enter(Stage stage, Stamp now) {
   stage_ = stage;
   stage_since_ = now;
   if (stage != Stage::starting) return;
+  counted_until_ = now;
   nmt_frame_ = nmt_frame(NmtCommand::start, id_);
   heartbeat_stamp_.reset();
   status_stamp_.reset();
@@ -104,7 +106,6 @@ void DriveNode::step(Stamp now) {
       break;
     case Stage::operational:
       supervise_communication(now);
-      supervise_feedback_rate(now);
       supervise_drive(now);
       supervise_transition(now);
       break;
@@ -130,8 +131,7 @@ void DriveNode::await_start(Stamp now) {
 void DriveNode::await_cleared_fault(Stamp now) {
   supervise_communication(now);
   if (stage_ == Stage::clearing_fault && state_ == Cia402State::switch_on_disabled) {
-    surplus_ = 0.0;
-    rate_since_ = now;
+    surplus_ = std::min(surplus_, 0.0);
     enter(Stage::operational, now);
   }
 }
@@ -203,7 +203,9 @@ void DriveNode::on_status(const StampedCanFrame& received, Stamp now) {
   state_ = decode_statusword(status->statusword);
   mode_ = status->mode;
   velocity_ = status->velocity;
-  surplus_ += 1.0;
+  count_feedback(received.stamp);
+  if (surplus_ < most_surplus || stage_ != Stage::operational) return;
+  fail(DeviceErrorKind::protocol, "sends twice what it should: a second SYNC, or two nodes with this id", now);
 }
 
 std::optional<DriveNode::Travel> DriveNode::on_position(const StampedCanFrame& received, Stamp now) {
@@ -263,14 +265,12 @@ void DriveNode::supervise_communication(Stamp now) {
   }
 }
 
-void DriveNode::supervise_feedback_rate(Stamp now) {
-  const double periods = seconds(now - rate_since_) / seconds(timing_.control_period);
-  rate_since_ = now;
+void DriveNode::count_feedback(Stamp stamp) {
+  const double periods = std::max(seconds(stamp - counted_until_) / seconds(timing_.control_period), 0.0);
+  counted_until_ = std::max(counted_until_, stamp);
   const double most_missing = seconds(timing_.feedback_timeout) / seconds(timing_.control_period);
-  surplus_ = std::max(surplus_ - periods, -most_missing);
+  surplus_ = std::max(surplus_ + 1.0 - periods, -most_missing);
   if (surplus_ > 0.0) surplus_ = std::max(surplus_ - periods * forgotten_surplus, 0.0);
-  if (surplus_ < most_surplus) return;
-  fail(DeviceErrorKind::protocol, "sends twice what it should: a second SYNC, or two nodes with this id", now);
 }
 
 void DriveNode::supervise_drive(Stamp now) {

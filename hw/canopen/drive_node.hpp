@@ -92,10 +92,10 @@ class DriveNode {
   void on_heartbeat(NmtState state, Stamp stamp, Stamp now);
   void on_emergency(const Emergency& emergency, Stamp now);
   void on_status(const StampedCanFrame& received, Stamp now);
+  void count_feedback(Stamp stamp);
   std::optional<Travel> on_position(const StampedCanFrame& received, Stamp now);
 
   void supervise_communication(Stamp now);
-  void supervise_feedback_rate(Stamp now);
   void supervise_drive(Stamp now);
   void supervise_transition(Stamp now);
   bool feedback_fresh(Stamp now) const;
@@ -131,8 +131,8 @@ class DriveNode {
   std::int32_t position_ = 0;
   std::int8_t mode_ = 0;
   std::uint16_t error_code_ = 0;
-  Stamp rate_since_{};
-  double surplus_ = 0.0;  ///< TPDO1s beyond one a period, or missing from it
+  Stamp counted_until_{};  ///< of the newest TPDO1, or when the node was started
+  double surplus_ = 0.0;   ///< TPDO1s beyond one a period, or missing from it
 
   std::optional<DeviceError> error_;
 };

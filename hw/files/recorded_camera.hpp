@@ -19,6 +19,8 @@ class RecordedCamera : public Camera {
  public:
   /// The stamp of the next frame; nothing at the recording's end. latest(*next_stamp()) gives just that frame.
   virtual std::optional<Stamp> next_stamp() const = 0;
+  /// How many frames the recording says it has; nothing where it does not say.
+  virtual std::optional<std::uint64_t> promised_frames() const { return std::nullopt; }
 };
 
 /// A picture that can not be used (missing, damaged, another size than the rig's) is a latched error and is passed
@@ -53,6 +55,7 @@ class VideoCamera final : public RecordedCamera {
   std::optional<Frame> latest(Stamp now) override;
   std::optional<DeviceError> error() const override { return error_; }
   std::optional<Stamp> next_stamp() const override;
+  std::optional<std::uint64_t> promised_frames() const override;
   void rearm() override { error_.reset(); }
 
  private:

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <opencv2/videoio.hpp>
 #include <utility>
 
@@ -18,8 +19,13 @@ VideoCamera::VideoCamera(std::string name, const std::string& path, double rate_
       start_(start),
       rate_hz_(rate_hz),
       video_(std::make_unique<cv::VideoCapture>()) {
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) {
+    fail("no such file");
+    return;
+  }
   if (!video_->open(path, cv::CAP_FFMPEG)) {
-    fail("can not be played");
+    fail("can not be played: it is no video, or its end is missing");
     return;
   }
   video_->set(cv::CAP_PROP_ORIENTATION_AUTO, 0);  // turning a picture by its tag would change the lens
@@ -43,6 +49,12 @@ void VideoCamera::grab() { grabbed_ = video_->grab(); }
 std::optional<Stamp> VideoCamera::next_stamp() const {
   if (!grabbed_) return std::nullopt;
   return start_ + from_seconds(static_cast<double>(next_) / rate_hz_);
+}
+
+std::optional<std::uint64_t> VideoCamera::promised_frames() const {
+  const double count = video_->isOpened() ? video_->get(cv::CAP_PROP_FRAME_COUNT) : 0.0;
+  if (!(count >= 1.0 && count < 1e12)) return std::nullopt;
+  return static_cast<std::uint64_t>(count);
 }
 
 std::optional<Frame> VideoCamera::latest(Stamp now) {

@@ -20,6 +20,7 @@ void AxisClient::rearm() {
   ordered_.reset();
   order_waits_ = false;
   order_running_ = false;
+  reset_waits_ = true;
   sent_at_.reset();
   sequence_.reset();
 }
@@ -41,12 +42,25 @@ std::optional<ModbusFault> AxisClient::refresh(ModbusSession& session, Stamp now
 void AxisClient::send_order(ModbusSession& session, Stamp now) {
   order_waits_ = false;
   order_running_ = false;
-  sequence_ = axis::next_sequence(*sequence_);
-  // The device takes an order only on a fresh watchdog.
-  auto fault = refresh(session, now);
-  if (!fault) fault = session.write(config_.unit, axis::command_address, axis::encode(*sequence_, *ordered_), now);
+  const auto fault = send(session, *ordered_, now);
   if (fault) return latch_.latch(fault->kind, "an order was not taken: " + fault->what, now);
+}
+
+// The device takes an order only on a fresh watchdog.
+std::optional<ModbusFault> AxisClient::send(ModbusSession& session, const axis::Order& order, Stamp now) {
+  if (auto fault = refresh(session, now)) return fault;
+  sequence_ = axis::next_sequence(*sequence_);
+  if (auto fault = session.write(config_.unit, axis::command_address, axis::encode(*sequence_, order), now)) {
+    return fault;
+  }
   sent_at_ = now;
+  return std::nullopt;
+}
+
+// With the cause still there the device refuses, and says which it is.
+void AxisClient::reset_fault(ModbusSession& session, const axis::Status& status, Stamp now) {
+  if (status.fault == 0 && !send(session, {.command = axis::reset_fault}, now)) return;
+  latch_.latch(DeviceErrorKind::device_fault, axis::describe_fault(status.fault) + "; the fault can not be reset", now);
 }
 
 void AxisClient::poll(ModbusSession& session, Stamp now) {
@@ -63,6 +77,8 @@ void AxisClient::poll(ModbusSession& session, Stamp now) {
   }
   latch_.poll_succeeded(now);
   if (!sequence_) sequence_ = status.sequence_echo;
+  const bool rearmed = std::exchange(reset_waits_, false) && !latch_.error();
+  if (rearmed && status.faulted) return reset_fault(session, status, now);
   if (!belongs_to_order(status, now)) return;
   check_device(status, now);
   status_ = status;

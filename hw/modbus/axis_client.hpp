@@ -15,7 +15,8 @@ struct AxisConfig {
 };
 
 /// Sends each order once, refreshes the watchdog, checks every status by kind, watchdog echo and sequence echo. While
-/// an error is latched it takes no order and does not refresh, so the axis stops by itself; it still reads.
+/// an error is latched it takes no order and does not refresh, so the axis stops by itself; it still reads. A fault of
+/// the device is reset once when it is re-armed, and at no other time.
 class AxisClient {
  public:
   AxisClient(std::string device, axis::Kind kind, const AxisConfig& config);
@@ -33,6 +34,8 @@ class AxisClient {
 
  private:
   void send_order(ModbusSession& session, Stamp now);
+  std::optional<ModbusFault> send(ModbusSession& session, const axis::Order& order, Stamp now);
+  void reset_fault(ModbusSession& session, const axis::Status& status, Stamp now);
   void poll(ModbusSession& session, Stamp now);
   std::optional<ModbusFault> refresh(ModbusSession& session, Stamp now);
   std::optional<std::string> contradiction(const axis::Status& status) const;
@@ -45,6 +48,7 @@ class AxisClient {
   std::optional<axis::Order> ordered_;  ///< the last one taken
   bool order_waits_ = false;
   bool order_running_ = false;  ///< the last one sent has been echoed
+  bool reset_waits_ = false;    ///< re-armed, and not read since
   std::optional<axis::Status> status_;
   Stamp stamp_{};
   std::optional<Stamp> next_poll_;

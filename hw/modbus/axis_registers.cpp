@@ -40,7 +40,7 @@ double rate_radps(std::int16_t actual) { return 1e-3 * actual; }
 std::string describe_fault(std::uint16_t fault) {
   switch (fault) {
     case 0:
-      return "no fault";
+      return "a fault whose cause is gone: it waits for its reset";
     case 1:
       return "overcurrent";
     case 2:

@@ -14,6 +14,8 @@ constexpr int status_address = 0x0200;    ///< eight input registers
 
 enum class Kind : std::uint16_t { belt = 0x4231, arm = 0x4131 };
 
+constexpr std::uint16_t reset_fault = 3;  ///< of either axis: clears a fault whose cause is gone; nothing moves
+
 namespace belt {
 constexpr std::uint16_t stop = 0;
 constexpr std::uint16_t run = 1;

@@ -34,6 +34,7 @@ GripperState ModbusGripper::state() const {
           .spin_radps = belt ? axis::rate_radps(belt->actual) : 0.0,
           .stamp = std::min(jaws_.stamp(), belt_.stamp()),
           .opening_since = jaws_.opening_since(),
+          .freed_at = jaws_.freed_at(),
           .error = jaws_.error() ? jaws_.error() : belt_.error()};
 }
 

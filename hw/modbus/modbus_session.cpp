@@ -1,9 +1,22 @@
 #include "hw/modbus/modbus_session.hpp"
 
+#include <utility>
+
 namespace hogline::hw {
 
+namespace {
+
+modbus::Framing framing_of(const ModbusLineConfig& config) {
+  return std::holds_alternative<ModbusTcp>(config.line) ? modbus::Framing::tcp : modbus::Framing::rtu;
+}
+
+}  // namespace
+
 ModbusSession::ModbusSession(const ModbusSessionConfig& config)
-    : transport_(config.line), reconnect_delay_(config.reconnect_delay) {}
+    : ModbusSession(config, open_kernel_line(config.line)) {}
+
+ModbusSession::ModbusSession(const ModbusSessionConfig& config, std::unique_ptr<ModbusLine> line)
+    : transport_(std::move(line), framing_of(config.line)), reconnect_delay_(config.reconnect_delay) {}
 
 std::optional<ModbusFault> ModbusSession::ensure_open(Stamp now) {
   if (transport_.is_open()) return std::nullopt;

@@ -19,7 +19,10 @@ struct ModbusSessionConfig {
 /// Used from one thread.
 class ModbusSession {
  public:
+  /// On the machine's line.
   explicit ModbusSession(const ModbusSessionConfig& config);
+  /// On another line, in the framing that the configuration asks for.
+  ModbusSession(const ModbusSessionConfig& config, std::unique_ptr<ModbusLine> line);
 
   std::optional<ModbusFault> read_input(int unit, int address, std::span<std::uint16_t> values, Stamp now);
   std::optional<ModbusFault> write(int unit, int address, std::span<const std::uint16_t> values, Stamp now);

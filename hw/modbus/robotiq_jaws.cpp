@@ -43,7 +43,8 @@ void RobotiqJaws::step(ModbusSession& session, Stamp now) {
   if (order_waits_ && known_ && !latch_.error()) send_order(session, now);
   if (latch_.error()) order_waits_ = false;
 
-  const bool watching_release = goal_ == Goal::release && !opening_since_ && !latch_.error();
+  const bool seen = opening_since_ && (freed_at_ || jaws_ == JawState::open);
+  const bool watching_release = goal_ == Goal::release && !seen && !latch_.error();
   if (next_poll_ && now < *next_poll_ && !watching_release) return;
   next_poll_ = now + config_.poll_period;
   poll(session, now);
@@ -66,6 +67,9 @@ void RobotiqJaws::send_order(ModbusSession& session, Stamp now) {
   order_waits_ = false;
   if (!activated_) return latch_.latch(DeviceErrorKind::refused, "can not open: the jaws are not activated", now);
   opening_since_.reset();
+  freed_at_.reset();
+  last_travel_ = 0;
+  last_travel_stamp_ = now;
   send(session, open_fast, now);
 }
 
@@ -73,6 +77,7 @@ void RobotiqJaws::start_grip(ModbusSession& session, Stamp now) {
   if (activated_) {
     order_waits_ = false;
     opening_since_.reset();
+    freed_at_.reset();
     if (jaws_ == JawState::holding) return;
     send(session,
          {.activate = true,
@@ -101,6 +106,7 @@ void RobotiqJaws::poll(ModbusSession& session, Stamp now) {
   check_faults(status, now);
   check_activation(status, now);
   take_object(status, now);
+  take_travel(status, now);
   known_ = true;
   stamp_ = now;
 }
@@ -168,6 +174,19 @@ void RobotiqJaws::take_object(const robotiq::Status& status, Stamp now) {
   if (parting && !opening_since_ && goal_ == Goal::release) opening_since_ = now;
   if (jaws_ == JawState::holding) may_hold_ = true;
   if (jaws_ == JawState::open || jaws_ == JawState::closed_empty) may_hold_ = false;
+}
+
+void RobotiqJaws::take_travel(const robotiq::Status& status, Stamp now) {
+  if (jaws_ == JawState::holding) held_position_ = status.position;
+  const bool opening = goal_ == Goal::release && status.position_echo < midway;
+  if (!opening || !held_position_ || freed_at_) return;
+  const int travel = *held_position_ - status.position;
+  if (travel >= config_.freeing_travel) {
+    const double part = static_cast<double>(config_.freeing_travel - last_travel_) / (travel - last_travel_);
+    freed_at_ = last_travel_stamp_ + from_seconds(part * seconds(now - last_travel_stamp_));
+  }
+  last_travel_ = travel;
+  last_travel_stamp_ = now;
 }
 
 }  // namespace hogline::hw

@@ -16,6 +16,7 @@ struct JawsConfig {
   Duration silence_limit{};  ///< the longest time without a good answer that is forgiven
   std::uint8_t close_speed = 0;
   std::uint8_t close_force = 0;
+  int freeing_travel = 0;  ///< counts by which the jaws must open until the stone is free: measured on site
 };
 
 /// Activates the jaws only to grip, and never while a stone may be held: from the moment something was in the jaws
@@ -26,7 +27,7 @@ class RobotiqJaws {
   explicit RobotiqJaws(const JawsConfig& config);
 
   /// Sends the order that waits, if any, then reads the status if it is due: each poll period, and in every step from a
-  /// release until it is seen.
+  /// release until the stone is free.
   void step(ModbusSession& session, Stamp now);
   void grip();
   void release();
@@ -38,6 +39,8 @@ class RobotiqJaws {
   bool activated() const { return activated_; }
   Stamp stamp() const { return stamp_; }  ///< of the newest status that belongs to the last order
   std::optional<Stamp> opening_since() const { return opening_since_; }
+  /// When the jaws' reported travel passed freeing_travel, interpolated between two answers.
+  std::optional<Stamp> freed_at() const { return freed_at_; }
   const std::optional<DeviceError>& error() const { return latch_.error(); }
 
  private:
@@ -51,6 +54,7 @@ class RobotiqJaws {
   void check_faults(const robotiq::Status& status, Stamp now);
   void check_activation(const robotiq::Status& status, Stamp now);
   void take_object(const robotiq::Status& status, Stamp now);
+  void take_travel(const robotiq::Status& status, Stamp now);
 
   JawsConfig config_;
   FaultLatch latch_;
@@ -66,6 +70,10 @@ class RobotiqJaws {
   std::optional<Stamp> activating_since_;
   std::optional<std::uint8_t> expected_echo_;
   std::optional<Stamp> opening_since_;
+  std::optional<Stamp> freed_at_;
+  std::optional<int> held_position_;  ///< counts, when the release was ordered
+  int last_travel_ = 0;
+  Stamp last_travel_stamp_{};
 };
 
 }  // namespace hogline::hw

@@ -10,6 +10,7 @@ namespace {
 constexpr int illegal_address = 2;
 constexpr int illegal_value = 3;
 constexpr int device_failure = 4;
+constexpr std::uint16_t reset_fault = 3;
 
 // One step of a value towards its target, no faster than rate.
 double approach(double value, double target, double largest_step) {
@@ -38,9 +39,15 @@ int AxisDevice::write_command(std::uint16_t sequence, std::uint16_t command, std
   if (sequence == 0) return illegal_value;
   if (sequence == sequence_) return 0;
   if (!fresh()) return device_failure;
-  if (command == 0 && fault_ == 0) faulted_ = false;
-  if (faulted_ && command != 0) return device_failure;
-  if (carry_out(command, argument) == Verdict::illegal_value) return illegal_value;
+  if (command == reset_fault) {
+    if (argument != 0) return illegal_value;
+    if (fault_ != 0) return device_failure;
+    halt();
+    faulted_ = false;
+  } else {
+    if (faulted_ && command != 0) return device_failure;
+    if (carry_out(command, argument) == Verdict::illegal_value) return illegal_value;
+  }
   sequence_ = sequence;
   tripped_ = false;
   return 0;

@@ -26,7 +26,36 @@ ModbusDevices::ModbusDevices(const GripperScenario& gripper, const SpinBeltScena
     : jaws_(gripper, seed, start),
       belt_(belt, start),
       arm_(arm, start),
-      server_({unit_of(jaws_, 3, 3), unit_of(belt_, 4, 8), unit_of(arm_, 4, 8)}, mutex_) {}
+      station_({unit_of(jaws_, 3, 3), unit_of(belt_, 4, 8), unit_of(arm_, 4, 8)}) {}
+
+ModbusServer& ModbusDevices::server() {
+  if (!server_) {
+    server_ = std::make_unique<ModbusServer>(station_, mutex_);
+    if (stopped_) server_->stop();
+  }
+  return *server_;
+}
+
+void ModbusDevices::stop() {
+  stopped_ = true;
+  if (server_) server_->stop();
+}
+
+void ModbusDevices::restart() {
+  if (stopped_) ++life_;
+  stopped_ = false;
+  if (server_) server_->restart();
+}
+
+void ModbusDevices::set_faults(const ModbusServerFaults& faults) {
+  const std::lock_guard lock(mutex_);
+  station_.set_faults(faults);
+}
+
+ModbusReply ModbusDevices::take(ModbusStationLine& line, std::span<const std::uint8_t> bytes) {
+  const std::lock_guard lock(mutex_);
+  return station_.take(line, bytes);
+}
 
 void ModbusDevices::step(Stamp now) {
   const std::lock_guard lock(mutex_);

@@ -1,7 +1,8 @@
-// The simulated jaws, spin belt and folding arm behind one Modbus server.
+// The simulated jaws, spin belt and folding arm behind one Modbus station.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 
 #include "hw/sim/axis_device.hpp"
@@ -17,11 +18,15 @@ class ModbusDevices {
   ModbusDevices(const GripperScenario& gripper, const SpinBeltScenario& belt, const ArmScenario& arm,
                 std::uint64_t seed, Stamp start);
 
-  int port() const { return server_.port(); }
+  /// Serves TCP on the loopback interface, in a thread of its own, from the first call on. The server's port.
+  int port() { return server().port(); }
   /// The same devices over RTU on a pseudo terminal: the path of the end that a client opens. After a restart() the
   /// path is another one.
-  std::string serve_rtu() { return server_.serve_rtu(); }
-  std::string rtu_path() const { return server_.rtu_path(); }
+  std::string serve_rtu() { return server().serve_rtu(); }
+  std::string rtu_path() const { return server_ ? server_->rtu_path() : std::string(); }
+  /// For a ModbusPlug: which life of the line this is; 0 while it is stopped.
+  unsigned serving() const { return stopped_ ? 0 : life_; }
+  ModbusReply take(ModbusStationLine& line, std::span<const std::uint8_t> bytes);
   void step(Stamp now);
 
   /// What the devices do to the world.
@@ -34,10 +39,10 @@ class ModbusDevices {
   Effects effects() const;
 
   /// Fault injection. stop() is a server that dies, stall() one that accepts but never answers.
-  void stop() { server_.stop(); }
-  void restart() { server_.restart(); }
-  void stall() { server_.set_faults({.stalled = true}); }
-  void set_faults(const ModbusServerFaults& faults) { server_.set_faults(faults); }
+  void stop();
+  void restart();
+  void stall() { set_faults({.stalled = true}); }
+  void set_faults(const ModbusServerFaults& faults);
   /// Calls change(jaws, belt, arm) while no request is being answered.
   template <typename Change>
   void inject(Change&& change) {
@@ -46,11 +51,16 @@ class ModbusDevices {
   }
 
  private:
+  ModbusServer& server();
+
   mutable std::mutex mutex_;
   JawsDevice jaws_;
   BeltDevice belt_;
   ArmDevice arm_;
-  ModbusServer server_;  // last: its thread uses the devices
+  ModbusStation station_;
+  unsigned life_ = 1;
+  bool stopped_ = false;
+  std::unique_ptr<ModbusServer> server_;  // last: its thread uses the devices
 };
 
 }  // namespace hogline::hw::sim

@@ -14,9 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <system_error>
-#include <utility>
-
-#include "hw/sim/modbus_wire.hpp"
+#include <vector>
 
 namespace hogline::hw::sim {
 
@@ -27,10 +25,7 @@ constexpr int silence_ms = 5;
 
 struct Line {
   int descriptor = -1;
-  ModbusWire wire = ModbusWire::tcp;
-  ModbusBytes received{};
-  ModbusBytes unsent{};    ///< what a late server still owes
-  bool forgotten = false;  ///< half open: never looked at again
+  ModbusStationLine state;
 };
 
 [[noreturn]] void fail(const char* doing) { throw std::system_error(errno, std::generic_category(), doing); }
@@ -53,10 +48,9 @@ void reset_connection(int socket) {
 }  // namespace
 
 struct ModbusServer::Impl {
-  explicit Impl(std::vector<ModbusUnit> units) : slave(std::move(units)) {}
+  explicit Impl(ModbusStation& answering) : station(answering) {}
 
-  ModbusSlave slave;          ///< under the devices' mutex
-  ModbusServerFaults faults;  ///< likewise
+  ModbusStation& station;  ///< under the devices' mutex
   int listener = -1;
   int wake = -1;
   int terminal = -1;        ///< our end of the pseudo terminal
@@ -66,13 +60,11 @@ struct ModbusServer::Impl {
   void serve(std::mutex& devices);
   void accept_connection();
   bool receive(Line& line, std::mutex& devices);
-  bool handle(Line& line, const ModbusRequest& request);
-  bool deliver(Line& line, const ModbusRequest& request, ModbusBytes answer);
   void close_all();
 };
 
-ModbusServer::ModbusServer(std::vector<ModbusUnit> units, std::mutex& devices)
-    : devices_(devices), impl_(std::make_unique<Impl>(std::move(units))) {
+ModbusServer::ModbusServer(ModbusStation& station, std::mutex& devices)
+    : devices_(devices), impl_(std::make_unique<Impl>(station)) {
   start();
 }
 
@@ -108,7 +100,7 @@ void ModbusServer::open_terminal() {
   tcgetattr(impl_->terminal_other, &settings);
   cfmakeraw(&settings);
   tcsetattr(impl_->terminal_other, TCSANOW, &settings);
-  impl_->lines.push_back({.descriptor = impl_->terminal, .wire = ModbusWire::rtu});
+  impl_->lines.push_back({.descriptor = impl_->terminal, .state = {.wire = ModbusWire::rtu}});
   rtu_path_ = path.data();
 }
 
@@ -140,24 +132,18 @@ void ModbusServer::restart() {
   if (!thread_.joinable()) start();
 }
 
-void ModbusServer::set_faults(const ModbusServerFaults& faults) {
-  const std::lock_guard lock(devices_);
-  impl_->faults = faults;
-  impl_->slave.freeze_inputs(faults.freeze_inputs);
-}
-
 void ModbusServer::Impl::serve(std::mutex& devices) {
   for (;;) {
     std::vector<pollfd> waiting{{wake, POLLIN, 0}, {listener, POLLIN, 0}};
     bool frame_under_way = false;
     for (const auto& line : lines) {
-      waiting.push_back({line.forgotten ? -1 : line.descriptor, POLLIN, 0});
-      frame_under_way = frame_under_way || (line.wire == ModbusWire::rtu && !line.received.empty());
+      waiting.push_back({line.state.forgotten ? -1 : line.descriptor, POLLIN, 0});
+      frame_under_way = frame_under_way || (line.state.wire == ModbusWire::rtu && !line.state.received.empty());
     }
     const int ready = poll(waiting.data(), waiting.size(), frame_under_way ? silence_ms : -1);
     if (ready < 0) continue;
     if (ready == 0) {
-      for (auto& line : lines) line.received.clear();
+      for (auto& line : lines) line.state.received.clear();
     }
     if (waiting[0].revents != 0) return;
     for (std::size_t i = lines.size(); i-- > 0;) {
@@ -174,52 +160,20 @@ void ModbusServer::Impl::accept_connection() {
   if (socket < 0) return;
   const int yes = 1;
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-  lines.push_back({.descriptor = socket, .wire = ModbusWire::tcp});
+  lines.push_back({.descriptor = socket, .state = {.wire = ModbusWire::tcp}});
 }
 
 // Whatever has arrived. False when the line is to be closed.
 bool ModbusServer::Impl::receive(Line& line, std::mutex& devices) {
-  const std::lock_guard lock(devices);
-  if (faults.half_open && line.wire == ModbusWire::tcp) {
-    line.forgotten = true;
-    return true;
-  }
   std::array<std::uint8_t, 512> buffer{};
   const auto got = read(line.descriptor, buffer.data(), buffer.size());
   if (got < 0 && errno == EINTR) return true;
   if (got <= 0) return false;
-  line.received.insert(line.received.end(), buffer.begin(), buffer.begin() + got);
-  while (const auto request = take_request(line.wire, line.received)) {
-    if (!handle(line, *request)) return false;
-  }
-  return true;
-}
-
-bool ModbusServer::Impl::handle(Line& line, const ModbusRequest& request) {
-  if (!line.unsent.empty()) send_all(line.descriptor, std::exchange(line.unsent, {}), line.wire);
-  if (faults.stalled) return true;
-  if (line.wire == ModbusWire::rtu && !slave.knows(request.unit)) return true;
-  const auto data = faults.exception != 0 ? ModbusSlave::exception(request.data, faults.exception)
-                                          : slave.answer(request.unit, request.data);
-  return deliver(line, request, wrap_answer(line.wire, request, data));
-}
-
-// Says the answer, or what the faults make of it. False when the line is to be closed.
-bool ModbusServer::Impl::deliver(Line& line, const ModbusRequest& request, ModbusBytes answer) {
-  if (faults.silent) return true;
-  if (faults.tamper) answer = faults.tamper(request.raw, std::move(answer));
-  if (faults.late) {
-    line.unsent = std::move(answer);
-    return true;
-  }
-  if (!faults.reset_mid_frame) {
-    send_all(line.descriptor, answer, line.wire);
-    return true;
-  }
-  send_all(line.descriptor, std::span(answer).first(answer.size() / 2), line.wire);
-  if (line.wire == ModbusWire::rtu) return true;
-  reset_connection(line.descriptor);
-  return false;
+  const std::lock_guard lock(devices);
+  const ModbusReply reply = station.take(line.state, std::span(buffer).first(static_cast<std::size_t>(got)));
+  send_all(line.descriptor, reply.bytes, line.state.wire);
+  if (reply.resets) reset_connection(line.descriptor);
+  return !reply.resets;
 }
 
 }  // namespace hogline::hw::sim

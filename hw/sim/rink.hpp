@@ -47,7 +47,7 @@ class Rink {
 
   /// The program's ends of the lines.
   CanBus& can() { return program_can_; }
-  int modbus_port() const { return modbus_.port(); }
+  int modbus_port() { return modbus_.port(); }
   std::string read_gyro() { return gyro_.read(); }
 
   /// The devices, for faults.

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hw/sim/people.hpp"
+
 namespace hogline::hw::sim {
 
 namespace {
 
 constexpr std::uint64_t near_sequence = 0x6e656172;
 constexpr std::uint64_t low_sequence = 0x6c6f77;
+constexpr Colour red_plate{0.60F, 0.02F, 0.02F};
+constexpr Colour yellow_plate{0.75F, 0.55F, 0.02F};
 
 Colour colour_of(const Reflectance& light) {
   return {static_cast<float>(light.red), static_cast<float>(light.green), static_cast<float>(light.blue)};
@@ -39,17 +43,29 @@ BodyMotion motion_of(const WorldHistory::Place& place) {
   return motion;
 }
 
-CameraWorld world_of(const Rink& rink, double stone_radius_m, bool on_the_arm) {
+StoneLook look_of(const StoneTruth& stone, double radius_m, const Colour& plate) {
+  StoneLook look;
+  look.x_m = stone.x_m;
+  look.y_m = stone.y_m;
+  look.handle_rad = stone.handle_rad;
+  look.radius_m = radius_m;
+  look.plate = plate;
+  return look;
+}
+
+CameraWorld world_of(const Rink& rink, const Scenario& scenario, bool on_the_arm) {
   CameraWorld world;
   world.body = [&rink](Stamp stamp) { return motion_of(rink.history().at(stamp)); };
-  world.things = [&rink, stone_radius_m](Stamp stamp, Exposure& exposure) {
-    const auto& stone = rink.history().at(stamp).stone;
-    StoneLook look;
-    look.x_m = stone.x_m;
-    look.y_m = stone.y_m;
-    look.handle_rad = stone.handle_rad;
-    look.radius_m = stone_radius_m;
-    exposure.stones.push_back(look);
+  world.things = [&rink, radius_m = scenario.stone.radius_m, people = scenario.people, seed = scenario.seed](
+                     Stamp stamp, Exposure& exposure) {
+    const auto place = rink.history().at(stamp);
+    exposure.stones.push_back(look_of(place.stone, radius_m, red_plate));
+    bool red = false;  // the teams throw by turns
+    for (const auto& other : place.others) {
+      exposure.stones.push_back(look_of(other, radius_m, red ? red_plate : yellow_plate));
+      red = !red;
+    }
+    exposure.people = people_at(people, seed, stamp);
   };
   if (on_the_arm) world.uncovered = [&rink](Stamp stamp) { return rink.history().at(stamp).arm_unfolded >= 1.0; };
   return world;
@@ -79,7 +95,7 @@ RenderedCamera camera_of(const Rink& rink, const Scenario& scenario, const Camer
   vision::Mount mount = rig.mount;
   mount.pitch_rad += camera.pitch_error_rad;
   return {SheetRenderer(rig.intrinsics, ice, appearance_of(scenario), sensor, seed, threads), vision::bMc(mount),
-          timing_of(camera, rink.start()), world_of(rink, scenario.stone.radius_m, on_the_arm), seed};
+          timing_of(camera, rink.start()), world_of(rink, scenario, on_the_arm), seed};
 }
 
 }  // namespace
@@ -98,6 +114,7 @@ RinkAppearance appearance_of(const Scenario& scenario) {
   look.sheet.divider_colour = colour_of(sheet.sideline_colour);
   look.light.level = scenario.light.level;
   look.light.falloff_per_m = scenario.light.falloff_per_m;
+  look.light.lamp_gloss = scenario.light.lamp_gloss;
   return look;
 }
 

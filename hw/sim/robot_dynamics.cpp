@@ -45,40 +45,53 @@ void RobotDynamics::step(const AxisSpeeds& axes, double load_kg, double load_x_m
   const double right_ground = forward_mps_ + 0.5 * track_m_ * wheel_yaw_radps_;
   left_radps_ = axes.left_radps.value_or(left_ground / left_radius_m_);
   right_radps_ = axes.right_radps.value_or(right_ground / right_radius_m_);
-  slipping_ = std::abs(left_radps_ * left_radius_m_ - left_ground) > 1e-9 ||
-              std::abs(right_radps_ * right_radius_m_ - right_ground) > 1e-9;
 
   wander(dt_s);
   move(before, dt_s);
   rock(dt_s);
 }
 
-// The impulse that ends each driven wheel's slip within this step, as far as friction can give it. `stiffness` is the
-// ground speed at a wheel per unit of its own impulse, `coupling` that per unit of the other's.
+// Of one wheel. The runner takes what the centre of mass and the acceleration leave to it, and never pulls down.
+double RobotDynamics::wheel_weight_n() const {
+  const double whole = scenario_.mass_kg * gravity_mps2;
+  if (scenario_.runner_x_m <= 0.0) return 0.5 * whole;
+  const double ahead_m = scenario_.mass_x_m - scenario_.mass_z_m * acceleration_mps2_ / gravity_mps2;
+  return 0.5 * whole * (1.0 - std::clamp(ahead_m / scenario_.runner_x_m, 0.0, 1.0));
+}
+
+// The impulse that ends each driven wheel's slip, but for its creep, within this step, as far as friction can give it.
+// `stiffness` is the ground speed at a wheel per unit of its own impulse, `coupling` that per unit of the other's.
 RobotDynamics::Forces RobotDynamics::grip(const AxisSpeeds& axes, double mass_kg, double inertia_kgm2, double dt_s) {
   const double half = 0.5 * track_m_;
   const double stiffness = 1.0 / mass_kg + half * half / inertia_kgm2;
   const double coupling = 1.0 / mass_kg - half * half / inertia_kgm2;
-  const double weight_n = mass_kg * gravity_mps2;
-  const double limit = scenario_.friction_coefficient * 0.5 * weight_n * dt_s;
+  const double weight_n = wheel_weight_n();
+  const double limit = scenario_.friction_coefficient * weight_n * dt_s;
   const double left_ground = forward_mps_ - half * wheel_yaw_radps_;
   const double right_ground = forward_mps_ + half * wheel_yaw_radps_;
   const auto rolling = [&](double ground_mps) {
-    const double most = scenario_.rolling_resistance * 0.5 * weight_n * dt_s;
+    const double most = scenario_.rolling_resistance * weight_n * dt_s;
     return -std::clamp(0.5 * mass_kg * ground_mps, -most, most);
+  };
+  const auto yielding = [&](double rim_mps) {
+    return weight_n > 0.0 ? stiffness + scenario_.creep * std::abs(rim_mps) / (weight_n * dt_s) : stiffness;
   };
 
   double left = rolling(left_ground);
   double right = rolling(right_ground);
-  const double left_gap = axes.left_radps ? *axes.left_radps * left_radius_m_ - left_ground : 0.0;
-  const double right_gap = axes.right_radps ? *axes.right_radps * right_radius_m_ - right_ground : 0.0;
-  const auto hold_left = [&] { left = std::clamp((left_gap - coupling * right) / stiffness, -limit, limit); };
-  const auto hold_right = [&] { right = std::clamp((right_gap - coupling * left) / stiffness, -limit, limit); };
+  const double left_rim = axes.left_radps.value_or(0.0) * left_radius_m_;
+  const double right_rim = axes.right_radps.value_or(0.0) * right_radius_m_;
+  const double left_gap = left_rim - left_ground;
+  const double right_gap = right_rim - right_ground;
+  const double left_own = yielding(left_rim);
+  const double right_own = yielding(right_rim);
+  const auto hold_left = [&] { left = std::clamp((left_gap - coupling * right) / left_own, -limit, limit); };
+  const auto hold_right = [&] { right = std::clamp((right_gap - coupling * left) / right_own, -limit, limit); };
 
   if (axes.left_radps && axes.right_radps) {
-    const double determinant = stiffness * stiffness - coupling * coupling;
-    left = (stiffness * left_gap - coupling * right_gap) / determinant;
-    right = (stiffness * right_gap - coupling * left_gap) / determinant;
+    const double determinant = left_own * right_own - coupling * coupling;
+    left = (right_own * left_gap - coupling * right_gap) / determinant;
+    right = (left_own * right_gap - coupling * left_gap) / determinant;
     // The wheel that lacks more grip slips; the other one then holds what it can.
     if (std::abs(left) > limit && std::abs(left) >= std::abs(right)) {
       left = std::clamp(left, -limit, limit);
@@ -92,6 +105,7 @@ RobotDynamics::Forces RobotDynamics::grip(const AxisSpeeds& axes, double mass_kg
   } else if (axes.right_radps) {
     hold_right();
   }
+  slipping_ = (axes.left_radps && std::abs(left) >= limit) || (axes.right_radps && std::abs(right) >= limit);
   return {left / dt_s, right / dt_s};
 }
 

@@ -16,9 +16,9 @@ struct AxisSpeeds {
   std::optional<double> right_radps;
 };
 
-/// Planar. A driven wheel pulls with whatever force keeps it rolling without slip, up to friction times half the
-/// weight; beyond that it slips. Wheels do not slide sideways and the load does not shift between them: at the throw's
-/// accelerations (below 1 m/s2, straight ahead) both change the grip by a few per cent only. Deterministic.
+/// Planar. A driven wheel pulls with whatever force keeps it rolling but for its creep, up to friction times the weight
+/// that rests on it; beyond that it slips. Speeding up shifts weight from the runner to the wheels, braking the other
+/// way. Wheels do not slide sideways and no weight shifts between them. Deterministic.
 class RobotDynamics {
  public:
   RobotDynamics(const RobotScenario& scenario, std::uint64_t seed);
@@ -33,7 +33,7 @@ class RobotDynamics {
   /// Of the axes as they really turn: as driven, or as a free wheel rolls.
   double left_radps() const { return left_radps_; }
   double right_radps() const { return right_radps_; }
-  bool slipping() const { return slipping_; }
+  bool slipping() const { return slipping_; }  ///< at the limit of a wheel's grip; creep alone is no slipping
 
  private:
   struct Forces {
@@ -41,6 +41,7 @@ class RobotDynamics {
     double right_n = 0.0;
   };
   Forces grip(const AxisSpeeds& axes, double mass_kg, double inertia_kgm2, double dt_s);
+  double wheel_weight_n() const;
   void wander(double dt_s);
   void move(double forward_before_mps, double dt_s);
   void rock(double dt_s);

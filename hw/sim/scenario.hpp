@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace hogline::hw::sim {
 
@@ -34,11 +35,23 @@ struct SheetScenario {
 struct LightScenario {
   double level = 0.0;          ///< of full scale, a surface of reflectance 1 in the picture's middle
   double falloff_per_m = 0.0;  ///< relative change of the light per metre across the sheet
+  double lamp_gloss = 0.0;     ///< brightness of the lamps' reflections in the ice, 0 for none
 };
 
-/// The base: two wheels on one axle under b's origin.
+/// Spectators and sweepers along the sheet. Each stands, or walks to and fro beside the run, where the seed puts him.
+struct PeopleScenario {
+  int count = 0;
+  double nearest_x_m = 0.0;  ///< of a person's middle from the centre line, at least
+  double walk_mps = 0.0;     ///< how fast the fastest walks
+};
+
+/// The base: two driven wheels on one axle under b's origin, and a runner ahead of them that glides and carries its
+/// share of the weight. The held stone lies on the ice: it must be moved, but gives the wheels no grip.
 struct RobotScenario {
   double mass_kg = 0.0;            ///< without the stone
+  double mass_x_m = 0.0;           ///< centre of mass ahead of the axle
+  double mass_z_m = 0.0;           ///< ... above the ice
+  double runner_x_m = 0.0;         ///< of the runner ahead of the axle; 0: the wheels carry all the weight
   double yaw_inertia_kgm2 = 0.0;   ///< about b's z axis, without the stone
   double wheel_radius_m = 0.0;     ///< what the rig file calls the radius
   double track_m = 0.0;            ///< what the rig file calls the track
@@ -46,6 +59,7 @@ struct RobotScenario {
   double right_radius_error = 0.0;
   double track_error = 0.0;
   double friction_coefficient = 0.0;     ///< of the wheels on ice: studded 0.3-0.5, rubber 0.05-0.15
+  double creep = 0.0;                    ///< slip of a wheel that pulls, share of its speed per unit of pull / weight
   double rolling_resistance = 0.0;       ///< force / weight, of wheels that roll free
   double steering_bias_rad_per_m = 0.0;  ///< turn left per metre driven that the wheels do not measure
   double yaw_disturbance_radps = 0.0;    ///< standard deviation of a wandering turn that the wheels do not measure,
@@ -77,6 +91,11 @@ struct StoneScenario {
   double curl_gain = 0.0;          ///< of FCV1's curl
   double lateral_acceleration_mps2 = 0.0;  ///< towards e's +x, for a floor that is not level
   double spin_decay_scale = 0.0;
+  double throw_friction_sigma = 0.0;  ///< standard deviation of the friction from throw to throw, share of it
+  double lane_friction = 0.0;         ///< share by which the ice brakes more a metre beside the centre line than on it
+  double restitution = 0.0;           ///< of two stones
+  double stone_friction = 0.0;        ///< coefficient of friction between two stones
+  std::vector<std::array<double, 2>> others{};  ///< stones that lie on the sheet: x and y in e
 };
 
 struct GripperScenario {
@@ -124,6 +143,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   SheetScenario sheet;
   LightScenario light;
+  PeopleScenario people;
   RobotScenario robot;
   DriveScenario drive;
   StoneScenario stone;

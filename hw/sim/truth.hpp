@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "vision/percepts/sheet_pose.hpp"
 #include "vision/percepts/stamp.hpp"
@@ -48,6 +49,8 @@ struct Truth {
   bool slipping = false;  ///< a wheel turns faster or slower than it rolls
   StoneTruth stone;
   bool held = false;
+  std::vector<StoneTruth> others;  ///< stones that lay on the sheet
+  int hits = 0;                    ///< collisions of stones so far
   std::optional<ReleaseRecord> release;
   std::optional<Stamp> burned;  ///< when the robot touched the stone after its release
   double arm_unfolded = 0.0;    ///< 0 folded .. 1 unfolded

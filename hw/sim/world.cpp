@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "hw/sim/stone_motion.hpp"
 
@@ -16,6 +17,9 @@ constexpr double tee_to_hog_m = 6.401;  // to the hog line's house-side edge (Wo
 
 World::World(const Scenario& scenario, Stamp start)
     : stone_(scenario.stone), robot_(scenario.robot, scenario.seed * 4 + 1) {
+  std::mt19937_64 random(scenario.seed * 4 + 2);
+  stone_.friction_scale *= 1.0 + stone_.throw_friction_sigma * std::normal_distribution<double>()(random);
+  for (const auto& [x_m, y_m] : stone_.others) truth_.others.push_back({.x_m = x_m, .y_m = y_m});
   truth_.stamp = start;
   truth_.held = scenario.gripper.holds_stone_at_start;
   truth_.arm_unfolded = scenario.arm.unfolded_at_start ? 1.0 : 0.0;
@@ -49,11 +53,26 @@ void World::substep(const WorldInputs& inputs, Duration span) {
   truth_.slipping = robot_.slipping();
   if (truth_.held) {
     carry(inputs.belt_radps);
+    truth_.stone.handle_rad += truth_.stone.spin_radps * dt_s;
   } else {
-    slide(truth_.stone, stone_, dt_s);
+    slide_stones(dt_s);
     detect_touch();
   }
+}
+
+// A stone that was pushed into another is freed of it in the steps that follow.
+void World::slide_stones(double dt_s) {
+  slide(truth_.stone, stone_, dt_s);
   truth_.stone.handle_rad += truth_.stone.spin_radps * dt_s;
+  for (auto& other : truth_.others) {
+    if (!moves(other)) continue;
+    slide(other, stone_, dt_s);
+    other.handle_rad += other.spin_radps * dt_s;
+  }
+  for (std::size_t i = 0; i < truth_.others.size(); ++i) {
+    truth_.hits += collide(truth_.stone, truth_.others[i], stone_) ? 1 : 0;
+    for (std::size_t k = 0; k < i; ++k) truth_.hits += collide(truth_.others[k], truth_.others[i], stone_) ? 1 : 0;
+  }
 }
 
 // The held stone's centre is a point of the body; the belt turns it against the body.

@@ -29,6 +29,7 @@ class World {
   void substep(const WorldInputs& inputs, Duration span);
   void release();
   void carry(double belt_radps);
+  void slide_stones(double dt_s);
   void detect_touch();
 
   StoneScenario stone_;

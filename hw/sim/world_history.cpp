@@ -30,11 +30,13 @@ StoneTruth mix(const StoneTruth& a, const StoneTruth& b, double share) {
 }  // namespace
 
 void WorldHistory::add(const Truth& truth) {
+  const std::lock_guard lock(mutex_);
   samples_.push_back(truth);
   while (samples_.size() > 2 && samples_.front().stamp < truth.stamp - kept_) samples_.pop_front();
 }
 
 WorldHistory::Place WorldHistory::at(Stamp stamp) const {
+  const std::lock_guard lock(mutex_);
   assert(!samples_.empty());
   auto later = std::ranges::lower_bound(samples_, stamp, {}, &Truth::stamp);
   if (later == samples_.end()) --later;
@@ -48,6 +50,7 @@ WorldHistory::Place WorldHistory::at(Stamp stamp) const {
           .pitch_rate_radps = span_s > 0.0 ? (b.pitch_rad - a.pitch_rad) / span_s : 0.0,
           .stone = mix(a.stone, b.stone, share),
           .held = b.held,
+          .others = b.others,
           .arm_unfolded = mix(a.arm_unfolded, b.arm_unfolded, share)};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <mutex>
 
 #include "hw/sim/truth.hpp"
 
@@ -21,6 +22,7 @@ class WorldHistory {
     double pitch_rate_radps = 0.0;
     StoneTruth stone;
     bool held = false;
+    std::vector<StoneTruth> others;
     double arm_unfolded = 0.0;
   };
   /// Precondition: at least one sample. A stamp outside what is kept gives the nearest sample.
@@ -28,6 +30,7 @@ class WorldHistory {
 
  private:
   Duration kept_;
+  mutable std::mutex mutex_;  ///< cameras may render in another thread than the one that steps the rink
   std::deque<Truth> samples_;
 };
 

@@ -1,9 +1,9 @@
 #include "src/config/scenario.hpp"
 
 #include <cmath>
-#include <random>
+#include <utility>
 
-#include "src/config/schema.hpp"
+#include "src/config/scenario_ranges.hpp"
 #include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
 
@@ -42,11 +42,15 @@ SheetScenario read_sheet(const Section& s) {
 RobotScenario read_robot(const Section& s) {
   RobotScenario r;
   r.mass_kg = s.number("mass_kg");
+  r.mass_x_m = s.number("mass_x_m");
+  r.mass_z_m = s.number("mass_z_m");
+  r.runner_x_m = s.number("runner_x_m");
   r.yaw_inertia_kgm2 = s.number("yaw_inertia_kgm2");
   r.left_radius_error = s.number("left_radius_error");
   r.right_radius_error = s.number("right_radius_error");
   r.track_error = s.number("track_error");
   r.friction_coefficient = s.number("friction_coefficient");
+  r.creep = s.number("creep");
   r.rolling_resistance = s.number("rolling_resistance");
   r.steering_bias_rad_per_m = s.radians("steering_bias_deg_per_m");
   r.yaw_disturbance_radps = s.number("yaw_disturbance_radps");
@@ -73,6 +77,11 @@ StoneScenario read_stone(const Section& s) {
   stone.curl_gain = s.number("curl_gain");
   stone.lateral_acceleration_mps2 = s.number("lateral_acceleration_mps2");
   stone.spin_decay_scale = s.number("spin_decay_scale");
+  stone.throw_friction_sigma = s.number("throw_friction_sigma");
+  stone.lane_friction = s.number("lane_friction");
+  stone.restitution = s.number("restitution");
+  stone.stone_friction = s.number("stone_friction");
+  for (const auto& place : s.raw("others")) stone.others.push_back({place[0], place[1]});
   return stone;
 }
 
@@ -105,50 +114,34 @@ CameraScenario read_camera(const Section& s) {
           .pitch_error_rad = s.radians("pitch_error_deg")};
 }
 
-// std::uniform_real_distribution differs between libraries; 53 bits of the engine do not.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : engine_(seed) {}
-  double within(double half_range) {
-    const double unit = static_cast<double>(engine_() >> 11U) * 0x1.0p-53;
-    return half_range * (2.0 * unit - 1.0);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-void vary(Scenario& scenario, const Section& v) {
-  Draw draw(scenario.seed);
-  scenario.robot.start_x_m += draw.within(v.number("start_x_m"));
-  scenario.robot.start_y_m += draw.within(v.number("start_y_m"));
-  scenario.robot.start_yaw_rad += draw.within(v.radians("start_yaw_deg"));
-  scenario.robot.left_radius_error += draw.within(v.number("radius_error"));
-  scenario.robot.right_radius_error += draw.within(v.number("radius_error"));
-  scenario.near_camera.pitch_error_rad += draw.within(v.radians("pitch_error_deg"));
-  scenario.low_camera.pitch_error_rad += draw.within(v.radians("pitch_error_deg"));
-  scenario.gyro.bias_radps += draw.within(v.radians("gyro_bias_deg_per_h") / 3600.0);
-  scenario.stone.friction_scale += draw.within(v.number("friction_scale"));
-  scenario.stone.curl_gain += draw.within(v.number("curl_gain"));
-}
-
 }  // namespace
 
-Scenario load_scenario(const std::string& path, std::uint64_t seed) {
-  return parse_scenario(read_file(path), path, seed);
+struct ScenarioFile::Content {
+  json root;
+  ScenarioRanges ranges;
+};
+
+ScenarioFile::ScenarioFile(std::string_view text, const std::string& name) {
+  Document document{.file = name, .lines = {}};
+  json root = read_yaml(text, document);
+  ScenarioRanges ranges(root, document);
+  content_ = std::make_shared<const Content>(Content{std::move(root), std::move(ranges)});
 }
 
-Scenario parse_scenario(std::string_view text, const std::string& name, std::uint64_t seed) {
-  Document document{.file = name, .lines = {}};
-  const json root = read_yaml(text, document);
-  check(root, "scenario.schema.json", document);
+Scenario ScenarioFile::draw(std::uint64_t seed) const {
+  json root = content_->root;
+  content_->ranges.draw(root, seed);
   const Section s(root);
 
   Scenario scenario;
   scenario.seed = seed;
   scenario.sheet = read_sheet(s.section("sheet"));
   scenario.light = {.level = s.section("light").number("level"),
-                    .falloff_per_m = s.section("light").number("falloff_per_m")};
+                    .falloff_per_m = s.section("light").number("falloff_per_m"),
+                    .lamp_gloss = s.section("light").number("lamp_gloss")};
+  scenario.people = {.count = s.section("people").integer("count"),
+                     .nearest_x_m = s.section("people").number("nearest_x_m"),
+                     .walk_mps = s.section("people").number("walk_mps")};
   scenario.robot = read_robot(s.section("robot"));
   scenario.drive = {.bandwidth_hz = s.section("drive").number("bandwidth_hz"),
                     .dead_time_s = s.section("drive").number("dead_time_s")};
@@ -163,8 +156,15 @@ Scenario parse_scenario(std::string_view text, const std::string& name, std::uin
   scenario.gyro = read_gyro(s.section("gyro"));
   scenario.near_camera = read_camera(s.section("near_camera"));
   scenario.low_camera = read_camera(s.section("low_camera"));
-  vary(scenario, s.section("variation"));
   return scenario;
+}
+
+Scenario load_scenario(const std::string& path, std::uint64_t seed) {
+  return parse_scenario(read_file(path), path, seed);
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name, std::uint64_t seed) {
+  return ScenarioFile(text, name).draw(seed);
 }
 
 }  // namespace hogline::config

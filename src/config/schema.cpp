@@ -13,26 +13,12 @@
 
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
+#include "src/config/nearest_word.hpp"
 
 namespace hogline::config {
 namespace {
 
 using nlohmann::json;
-
-// Levenshtein's distance: how many letters apart two keys are.
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0U);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row.back();
-}
 
 std::string shortened(const json& value) {
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -123,15 +109,10 @@ class Explainer {
 
   void refuse_unknown(const std::string& key, const std::string& name, const json& value,
                       const json& properties) const {
-    std::string nearest;
-    std::size_t best = name.size() / 2 + 1;
-    for (const auto& [known, _] : properties.items()) {
-      if (const std::size_t d = distance(name, known); d < best) {
-        best = d;
-        nearest = known;
-      }
-    }
-    const std::string advice = nearest.empty() ? "" : fmt::format("did you mean {}? ", nearest);
+    std::vector<std::string> known;
+    for (const auto& [word, _] : properties.items()) known.push_back(word);
+    const std::string meant = nearest_word(name, known);
+    const std::string advice = meant.empty() ? "" : fmt::format("did you mean {}? ", meant);
     refuse(key, value.is_structured() ? "" : shortened(value),
            fmt::format("unknown key; {}allowed here: {}", advice, names(properties)));
   }

@@ -1,6 +1,7 @@
 #include "src/config/strict_yaml.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <charconv>
@@ -101,6 +102,29 @@ class Reader {
   int nodes_ = 0;
 };
 
+class Ignore final : public YAML::EventHandler {
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Text = const std::string&;
+  void OnDocumentStart(const Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark&, Anchor) override {}
+  void OnAlias(const Mark&, Anchor) override {}
+  void OnScalar(const Mark&, Text, Anchor, Text) override {}
+  void OnSequenceStart(const Mark&, Text, Anchor, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, Text, Anchor, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// YAML::LoadAll would tell, but on some broken texts (",\n---\vb") yaml-cpp 0.7 finds documents for ever.
+bool is_one_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Ignore events;
+  return parser.HandleNextDocument(events) && !parser.HandleNextDocument(events);
+}
+
 }  // namespace
 
 int Document::line_of(const std::string& key) const {
@@ -115,16 +139,18 @@ int Document::line_of(const std::string& key) const {
 }
 
 json read_yaml(std::string_view text, Document& document) {
-  std::vector<YAML::Node> documents;
+  YAML::Node root;
+  bool one = false;
   try {
-    documents = YAML::LoadAll(std::string(text));
+    one = is_one_document(std::string(text));
+    if (one) root = YAML::Load(std::string(text));
   } catch (const YAML::Exception& e) {
     throw ConfigError(document.file, e.mark.line + 1, "", "", fmt::format("not YAML: {}", e.msg));
   }
-  if (documents.size() != 1 || !documents.front().IsMap()) {
+  if (!one || !root.IsMap()) {
     throw ConfigError(document.file, 0, "", "", "must hold one YAML document of keys and values");
   }
-  return Reader(document).read(documents.front(), "");
+  return Reader(document).read(root, "");
 }
 
 std::string read_file(const std::string& path) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/config/config_error.hpp"
-#include "src/config/drive_sections.hpp"
+#include "src/config/device_sections.hpp"
 #include "src/config/schema.hpp"
 #include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
@@ -33,13 +33,30 @@ servo::AgeLimits read_ages(const Section& s) {
           .gripper = s.duration("gripper_s"),
           .arm = s.duration("arm_s"),
           .near_view = s.duration("near_view_s"),
-          .low_view = s.duration("low_view_s")};
+          .low_view = s.duration("low_view_s"),
+          .low_sight = s.duration("low_sight_s")};
+}
+
+std::array<double, 9> rotation_cRb(const vision::Mount& mount) {
+  const Eigen::Matrix3d cRb = vision::bMc(mount).linear().transpose();
+  std::array<double, 9> rows{};
+  for (int i = 0; i < 9; ++i) rows[static_cast<std::size_t>(i)] = cRb(i / 3, i % 3);
+  return rows;
+}
+
+servo::YawBiasTable read_yaw_bias(const json& list) {
+  constexpr double deg = std::numbers::pi / 180.0;
+  servo::YawBiasTable table;
+  for (const json& knot : list) table.push_back({knot[0].get<double>() * deg, knot[1].get<double>() * deg});
+  return table;
 }
 
 servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& near_mount) {
   servo::AlignmentConfig a;
-  const Eigen::Matrix3d cRb = vision::bMc(near_mount).linear().transpose();
-  for (int i = 0; i < 9; ++i) a.near_cRb[static_cast<std::size_t>(i)] = cRb(i / 3, i % 3);
+  a.method = s.word("method") == "look_then_gyro" ? servo::AlignmentMethod::look_then_gyro
+                                                  : servo::AlignmentMethod::visual_servoing;
+  a.near_cRb = rotation_cRb(near_mount);
+  a.near_yaw_bias = read_yaw_bias(s.raw("near_yaw_bias_deg"));
   a.gain_at_zero_per_s = s.number("gain_at_zero_per_s");
   a.gain_at_infinity_per_s = s.number("gain_at_infinity_per_s");
   a.gain_slope_per_s_rad = s.number("gain_slope_per_s_deg") / (std::numbers::pi / 180.0);
@@ -52,7 +69,9 @@ servo::AlignmentConfig read_alignment(const Section& s, const vision::Mount& nea
 }
 
 servo::RunConfig read_run(const Section& s) {
-  return {.hold_distance_m = s.number("hold_distance_m"),
+  return {.sight_from_hog_m = s.number("sight_from_hog_m"),
+          .sight_to_hog_m = s.number("sight_to_hog_m"),
+          .hold_distance_m = s.number("hold_distance_m"),
           .heading_gain_per_s = s.number("heading_gain_per_s"),
           .lateral_length_m = s.number("lateral_length_m"),
           .max_lateral_heading_rad = s.radians("max_lateral_heading_deg"),
@@ -72,7 +91,24 @@ servo::Deadlines read_deadlines(const Section& s) {
           .brake = s.duration("brake_s")};
 }
 
-servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near_mount) {
+servo::SafetyConfig read_safety(const Section& s, const vision::Mount& low_mount) {
+  return {.max_yaw_rate_disagreement_radps = s.radians("max_yaw_rate_disagreement_degps"),
+          .disagreement_time = s.duration("disagreement_time_s"),
+          .reaction_s = s.number("reaction_s"),
+          .speed_margin = s.number("speed_margin"),
+          .odometry_bound = s.number("odometry_bound"),
+          .look_sigmas = s.number("look_sigmas"),
+          .look_margin_m = s.number("look_margin_m"),
+          .slip_allowance_m = s.number("slip_allowance_m"),
+          .max_travel_m = s.number("max_travel_m"),
+          .max_overrun_m = s.number("max_overrun_m"),
+          .max_tilt_rad = s.radians("max_tilt_deg"),
+          .operator_age = s.duration("operator_age_s"),
+          .low_cRb = rotation_cRb(low_mount)};
+}
+
+servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near_mount,
+                                  const vision::Mount& low_mount) {
   const Section t = root.section("thrower");
   const Section release = root.section("release");
   servo::ThrowerConfig c;
@@ -82,7 +118,11 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   c.release = {.hog_distance_m = release.number("hog_distance_m"),
                .tolerance_m = release.number("tolerance_m"),
                .stone_x_m = release.number("stone_x_m"),
-               .gripper_delay_s = release.number("gripper_delay_s")};
+               .gripper_delay_s = release.number("gripper_delay_s"),
+               .gripper_delay_sigma_s = release.number("gripper_delay_sigma_s"),
+               .drag_mps = release.number("drag_mps"),
+               .drag_sigma_mps = release.number("drag_sigma_mps"),
+               .rest_hog_distance_m = release.number("rest_hog_distance_m")};
   c.ages = read_ages(root.section("ages"));
   c.measure = {.frames = t.section("measure").integer("frames"), .rest = t.section("measure").duration("rest_s")};
   c.alignment = read_alignment(t.section("alignment"), near_mount);
@@ -95,76 +135,12 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   const Section odometry = t.section("odometry");
   c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
                 .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),
-                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m")};
+                .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m"),
+                .speed_delay_s = odometry.number("speed_delay_s")};
   c.run = read_run(t.section("run"));
-  const Section safety = t.section("safety");
-  c.safety = {.max_yaw_rate_disagreement_radps = safety.radians("max_yaw_rate_disagreement_degps"),
-              .disagreement_time = safety.duration("disagreement_time_s"),
-              .reaction_s = safety.number("reaction_s")};
+  c.safety = read_safety(t.section("safety"), low_mount);
   c.deadlines = read_deadlines(t.section("deadlines"));
   return c;
-}
-
-hw::ModbusSessionConfig read_modbus(const Section& s, const Document& document) {
-  if (s.has("tcp") == s.has("rtu")) {
-    throw ConfigError(document.file, document.line_of("modbus"), "modbus", "", "must hold either tcp or rtu");
-  }
-  hw::ModbusSessionConfig m;
-  if (s.has("tcp")) {
-    m.line.line = hw::ModbusTcp{.address = s.section("tcp").word("address"), .port = s.section("tcp").integer("port")};
-  } else {
-    const Section r = s.section("rtu");
-    m.line.line = hw::ModbusRtu{.device = r.word("device"),
-                                .baud = r.integer("baud"),
-                                .parity = r.word("parity").front(),
-                                .data_bits = r.integer("data_bits"),
-                                .stop_bits = r.integer("stop_bits")};
-  }
-  m.line.response_timeout = s.duration("response_timeout_s");
-  m.reconnect_delay = s.duration("reconnect_delay_s");
-  return m;
-}
-
-hw::AxisConfig read_axis(const Section& s) {
-  return {.unit = s.integer("unit"),
-          .poll_period = s.duration("poll_period_s"),
-          .echo_deadline = s.duration("echo_deadline_s"),
-          .silence_limit = s.duration("silence_limit_s")};
-}
-
-hw::ModbusGripperConfig read_gripper(const Section& s) {
-  hw::ModbusGripperConfig g;
-  g.jaws = {.unit = s.integer("unit"),
-            .poll_period = s.duration("poll_period_s"),
-            .echo_deadline = s.duration("echo_deadline_s"),
-            .activation_deadline = s.duration("activation_deadline_s"),
-            .silence_limit = s.duration("silence_limit_s"),
-            .close_speed = static_cast<std::uint8_t>(s.integer("close_speed")),
-            .close_force = static_cast<std::uint8_t>(s.integer("close_force"))};
-  g.belt = read_axis(s.section("belt"));
-  g.max_spin_radps = s.number("max_spin_radps");
-  return g;
-}
-
-hw::Dsp3000Config read_gyro(const Section& s) {
-  const Section rest = s.section("rest");
-  return {.variant = s.word("variant") == "text" ? hw::Dsp3000Variant::text : hw::Dsp3000Variant::binary,
-          .sign = s.number("sign"),
-          .latitude_rad = s.radians("latitude_deg"),
-          .latency = s.duration("latency_s"),
-          .silence_limit = s.duration("silence_limit_s"),
-          .mode_deadline = s.duration("mode_deadline_s"),
-          .reopen_delay = s.duration("reopen_delay_s"),
-          .max_rate_radps = s.radians("max_rate_degps"),
-          .max_slew_radps2 = s.radians("max_slew_degps2"),
-          .stuck_limit = s.duration("stuck_limit_s"),
-          .rest_window = rest.duration("window_s"),
-          .max_bias_radps = rest.radians("max_bias_degps"),
-          .max_bias_step_radps = rest.radians("max_bias_step_degps")};
-}
-
-hw::SerialPortConfig read_gyro_port(const Section& s) {
-  return {.device = s.word("device"), .baud = s.word("variant") == "text" ? 38400 : 115200};
 }
 
 void require_sections(const json& root, const Document& document) {
@@ -189,6 +165,15 @@ void check_release(const servo::ReleaseConfig& r, const Document& document) {
   }
 }
 
+void check_yaw_bias(const servo::YawBiasTable& table, const Document& document) {
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    if (table[i].estimate_rad > table[i - 1].estimate_rad) continue;
+    const char* key = "thrower.alignment.near_yaw_bias_deg";
+    throw ConfigError(document.file, document.line_of(key), key, fmt::format("knot {}", i + 1),
+                      "the seen angles must ascend");
+  }
+}
+
 // While a look goes on nobody asks the camera: a limit shorter than that would take it for silence.
 void check_looks(const ThrowerRig& rig, const Document& document) {
   for (const auto& [name, look] : {std::pair("near", rig.looks.near), std::pair("low", rig.looks.low)}) {
@@ -201,6 +186,16 @@ void check_looks(const ThrowerRig& rig, const Document& document) {
 
 }  // namespace
 
+DeviceRig devices_of(const ThrowerRig& rig) {
+  return {.rig = rig.rig,
+          .drive = rig.drive,
+          .head = rig.head,
+          .modbus = rig.modbus,
+          .gripper = rig.gripper,
+          .arm = rig.arm,
+          .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port}};
+}
+
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
 
 ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
@@ -210,16 +205,17 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   const json root = read_yaml(text, document);
   require_sections(root, document);
   const Section s(root);
-  rig.rig.camera("low");
-  rig.thrower = read_thrower(s, rig.rig.camera("near").mount);
+  rig.thrower = read_thrower(s, rig.rig.camera("near").mount, rig.rig.camera("low").mount);
   check_release(rig.thrower.release, document);
-  rig.drive = read_drive(s.section("drive"), document);
-  if (s.has("head")) rig.head = read_head(s.section("head"), rig.drive, document);
-  rig.modbus = read_modbus(s.section("modbus"), document);
-  rig.gripper = read_gripper(s.section("gripper"));
-  rig.arm = read_axis(s.section("arm"));
-  rig.gyro = read_gyro(s.section("gyro"));
-  rig.gyro_port = read_gyro_port(s.section("gyro"));
+  check_yaw_bias(rig.thrower.alignment.near_yaw_bias, document);
+  const DeviceRig devices = read_devices(rig.rig, s, document);
+  rig.drive = devices.drive.value();
+  rig.head = devices.head;
+  rig.modbus = devices.modbus.value();
+  rig.gripper = devices.gripper.value();
+  rig.arm = devices.arm.value();
+  rig.gyro = devices.gyro.value().device;
+  rig.gyro_port = devices.gyro.value().port;
   rig.looks = {.near = s.section("looks").duration("near_s"), .low = s.section("looks").duration("low_s")};
   check_looks(rig, document);
   return rig;

@@ -13,6 +13,7 @@
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
 #include "servo/thrower_config.hpp"
+#include "src/config/device_rig.hpp"
 #include "src/config/rig.hpp"
 #include "src/throwing/look_times.hpp"
 
@@ -30,6 +31,9 @@ struct ThrowerRig {
   hw::SerialPortConfig gyro_port;
   LookTimes looks;
 };
+
+/// Its devices alone.
+DeviceRig devices_of(const ThrowerRig& rig);
 
 /// Reads and checks a rig file with every section that a throw needs. Throws ConfigError.
 ThrowerRig load_thrower_rig(const std::string& path);

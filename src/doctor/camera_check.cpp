@@ -57,6 +57,29 @@ Look look(hw::CheckedCamera& camera, const hw::files::RecordedCamera& recording)
   return seen;
 }
 
+// To the end, or as far as there is patience for: a file whose end is missing plays well until there.
+void examine_length(hw::files::RecordedCamera& recording, Finding& finding) {
+  constexpr auto patience = 20s;
+  const auto promised = recording.promised_frames();
+  if (!promised) return;
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::uint64_t last = 0;
+  for (auto now = recording.next_stamp(); now; now = recording.next_stamp()) {
+    if (std::chrono::steady_clock::now() > end) return;
+    if (const auto frame = recording.latest(*now)) last = frame->id + 1;
+    if (recording.error()) break;
+  }
+  finding.values.emplace_back("frames", static_cast<std::int64_t>(last));
+  const std::uint64_t tolerated = 2 + *promised / 100;  // containers round
+  if (const auto error = recording.error()) {
+    finding.wrong(fmt::format("frame {} of {}: {}", last + 1, *promised, error->what),
+                  "copy it whole, or record it again");
+  } else if (last + tolerated < *promised) {
+    finding.wrong(fmt::format("is cut short: {} of {} frames can be played", last, *promised),
+                  "copy it whole, or record it again");
+  }
+}
+
 void describe(const Look& seen, Finding& finding) {
   if (seen.ages_s.empty()) return;
   const double age_ms = 1e3 * seen.ages_s[seen.ages_s.size() / 2];
@@ -69,7 +92,8 @@ void describe(const Look& seen, Finding& finding) {
   finding.values.emplace_back("rate_hz", rate_hz);
 }
 
-const char* advice_for(hw::DeviceErrorKind kind) {
+std::string advice_for(hw::DeviceErrorKind kind, const std::string& of_the_site) {
+  if (!of_the_site.empty()) return of_the_site;
   switch (kind) {
     case hw::DeviceErrorKind::disconnected:
       return "check its power and cable, and its address against the network card's";
@@ -91,30 +115,33 @@ Finding examine_camera(const std::string& name, const config::CameraSource& sour
   hw::Camera* camera = site.camera(name);
   if (camera == nullptr) {
     finding.found = "not examined";
-    finding.note("its pictures are simulated", "name its source in the rig, or use --simulated");
+    finding.note("its pictures are simulated",
+                 "name its source in the rig; a whole thrower can be examined with --simulated");
     return finding;
   }
   hw::CheckedCamera checked(*camera, {.name = finding.device,
                                       .max_age = source.max_age,
                                       .silence_limit = source.silence_limit,
                                       .first_frame_limit = longest});
-  const auto* recording = dynamic_cast<const hw::files::RecordedCamera*>(camera);
+  auto* recording = dynamic_cast<hw::files::RecordedCamera*>(camera);
   const Look seen = recording != nullptr ? look(checked, *recording) : look(checked, site);
   const auto& verdict = checked.verdict();
   finding.found = verdict ? "picture with " + verdict->describe() : "no picture";
   if (verdict && verdict->fault) finding.found = verdict->describe();
   site.describe_camera(name, finding);
   describe(seen, finding);
+  if (recording != nullptr && !checked.error()) examine_length(*recording, finding);
 
   const auto error = checked.error();
   const bool black = verdict && verdict->fault == vision::PictureFault::black;
   if (black && covered) {
     finding.note("sees darkness: the head is folded", "unfold the arm and ask again");
   } else if (error) {
-    finding.wrong(fmt::format("{}: {}", to_string(error->kind), error->what), advice_for(error->kind));
+    finding.wrong(fmt::format("{}: {}", to_string(error->kind), error->what),
+                  advice_for(error->kind, site.camera_advice(name)));
   } else if (seen.ages_s.size() < (recording != nullptr ? 1 : enough)) {
     finding.wrong(fmt::format("only {} pictures in {:.0f} s", seen.ages_s.size(), seconds(longest)),
-                  advice_for(hw::DeviceErrorKind::timeout));
+                  advice_for(hw::DeviceErrorKind::timeout, site.camera_advice(name)));
   }
   return finding;
 }

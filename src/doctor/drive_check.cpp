@@ -1,6 +1,7 @@
 #include "src/doctor/drive_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>
@@ -278,25 +279,69 @@ class NodeExamination {
   std::optional<std::uint32_t> type_;
 };
 
-}  // namespace
-
-std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config,
-                                    const std::optional<hw::TwoAxisHeadConfig>& head, Site& site) {
-  std::vector<Expected> nodes{expected(config.left, config), expected(config.right, config)};
-  if (head && site.has_head()) {
+std::vector<Expected> expected_nodes(const std::optional<hw::TwoWheelDriveConfig>& wheels,
+                                     const std::optional<hw::TwoAxisHeadConfig>& head) {
+  std::vector<Expected> nodes;
+  if (wheels) {
+    nodes.push_back(expected(wheels->left, *wheels));
+    nodes.push_back(expected(wheels->right, *wheels));
+  }
+  if (head) {
     nodes.push_back(expected(head->pan, *head));
     nodes.push_back(expected(head->tilt, *head));
   }
+  return nodes;
+}
+
+// Nodes that the rig does not declare may be right there; a missing one may be among them under a wrong number.
+void tell_strangers(const std::set<std::uint8_t>& known, const BusEar& ear, Finding& bus) {
+  std::vector<int> strangers;
+  for (std::uint8_t id = 1; id <= 127; ++id) {
+    if (ear.node(id).heartbeats > 0 && !known.contains(id)) strangers.push_back(id);
+  }
+  if (strangers.empty()) return;
+  bus.note(fmt::format("node {} {} heard, and the rig does not declare it", fmt::join(strangers, ", "),
+                       strangers.size() == 1 ? "is" : "are"),
+           "if it is one of the rig's devices, correct its node number there or in the device");
+}
+
+void describe_bus(const BusEar& ear, Duration listened, Site& site, Finding& bus) {
+  bus.device = "CAN bus";
+  bus.line = site.can_line();
+  const double frames_per_s = static_cast<double>(ear.frames()) / seconds(listened);
+  bus.found = fmt::format("{}, {:.0f} frames/s", site.can().up() ? "up" : "down", frames_per_s);
+  bus.values.emplace_back("frames_per_s", frames_per_s);
+  bus.values.emplace_back("other_master_frames", static_cast<std::int64_t>(ear.other_master()));
+  site.describe_can(bus);
+  if (!site.can().up() && bus.remarks.empty()) bus.wrong("the bus is down", "check adapter, wiring and terminations");
+  if (ear.other_master() > 0) {
+    bus.wrong(fmt::format("another master is on the bus ({} of its frames)", ear.other_master()),
+              "end the other program that commands these drives");
+  }
+}
+
+// All at once means the bus, not each of them.
+void tell_if_all_are_silent(const std::vector<Finding>& nodes, const BusEar& ear, Finding& bus) {
+  if (nodes.empty() || ear.frames() > 0 || !bus.remarks.empty()) return;
+  bus.wrong("nothing at all is heard on the bus",
+            "check the bit rate (ip -details link show) against the drives', the plug, and the drives' supply");
+}
+
+}  // namespace
+
+std::vector<Finding> examine_drives(const std::optional<hw::TwoWheelDriveConfig>& wheels,
+                                    const std::optional<hw::TwoAxisHeadConfig>& head, Site& site) {
+  const std::vector<Expected> nodes = expected_nodes(wheels, site.has_head() ? head : std::nullopt);
   std::set<std::uint8_t> ids;
   for (const Expected& node : nodes) ids.insert(node.node);
-  BusEar ear(std::move(ids), config.master_node);
+  BusEar ear(ids, wheels ? wheels->master_node : head ? head->master_node : std::uint8_t{0});
   Asking asking(site, ear);
   const Stamp begin = site.now();
   asking.listen(listening);
 
-  std::vector<Finding> findings(1);
+  std::vector<Finding> drives;
   for (const Expected& node : nodes) {
-    Finding& finding = findings.emplace_back();
+    Finding& finding = drives.emplace_back();
     finding.device = node.name;
     finding.line = fmt::format("{}, node {}", site.can_line(), node.node);
     if (site.can().up()) {
@@ -307,20 +352,12 @@ std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config,
     }
   }
 
-  Finding& bus = findings.front();
-  bus.device = "CAN bus";
-  bus.line = site.can_line();
-  const double frames_per_s = static_cast<double>(ear.frames()) / seconds(site.now() - begin);
-  bus.found = fmt::format("{}, {:.0f} frames/s", site.can().up() ? "up" : "down", frames_per_s);
-  bus.values.emplace_back("frames_per_s", frames_per_s);
-  bus.values.emplace_back("other_master_frames", static_cast<std::int64_t>(ear.other_master()));
-  site.describe_can(bus);
-  if (!site.can().up() && bus.remarks.empty()) bus.wrong("the bus is down", "check adapter, wiring and terminations");
-  if (ear.other_master() > 0) {
-    bus.wrong(fmt::format("another master is on the bus ({} of its frames)", ear.other_master()),
-              "end the other program that commands these drives");
-  }
-  return findings;
+  Finding bus;
+  describe_bus(ear, site.now() - begin, site, bus);
+  tell_if_all_are_silent(drives, ear, bus);
+  tell_strangers(ids, ear, bus);
+  drives.insert(drives.begin(), std::move(bus));
+  return drives;
 }
 
 }  // namespace hogline::doctor

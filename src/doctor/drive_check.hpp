@@ -11,8 +11,9 @@
 
 namespace hogline::doctor {
 
-/// The bus first, then each wheel, then the head's axes if there is a head.
-std::vector<Finding> examine_drives(const hw::TwoWheelDriveConfig& config,
+/// The bus first, then each wheel, then the head's axes, as far as there are any. On a bus of which the rig declares no
+/// node, those that are heard.
+std::vector<Finding> examine_drives(const std::optional<hw::TwoWheelDriveConfig>& wheels,
                                     const std::optional<hw::TwoAxisHeadConfig>& head, Site& site);
 
 }  // namespace hogline::doctor

@@ -10,15 +10,19 @@
 
 namespace hogline::doctor {
 
-std::vector<Finding> examine(const config::ThrowerRig& rig, Site& site) {
-  std::vector<Finding> findings = examine_drives(rig.drive, rig.head, site);
+std::vector<Finding> examine(const config::DeviceRig& rig, Site& site) {
+  std::vector<Finding> findings;
+  if (rig.drive || rig.head || !rig.rig.can_interface.empty()) findings = examine_drives(rig.drive, rig.head, site);
 
-  ModbusFindings modbus = examine_modbus(rig.gripper, rig.arm, site);
-  std::ranges::move(modbus.findings, std::back_inserter(findings));
+  bool head_covered = false;
+  if (rig.modbus) {
+    ModbusFindings modbus = examine_modbus(rig.gripper, rig.arm, site);
+    std::ranges::move(modbus.findings, std::back_inserter(findings));
+    head_covered = modbus.arm_unfolded == false;
+  }
 
-  findings.push_back(examine_gyro(site));
+  if (rig.gyro) findings.push_back(examine_gyro(site));
 
-  const bool head_covered = modbus.arm_unfolded == false;
   for (const auto& [name, setup, on_the_arm] :
        {std::tuple("near", &rig.rig.near_camera, true), std::tuple("low", &rig.rig.low_camera, false),
         std::tuple("far", &rig.rig.far_camera, true)}) {

@@ -3,12 +3,13 @@
 
 #include <vector>
 
-#include "src/config/thrower_rig.hpp"
+#include "src/config/device_rig.hpp"
 #include "src/doctor/finding.hpp"
 #include "src/doctor/site.hpp"
 
 namespace hogline::doctor {
 
-std::vector<Finding> examine(const config::ThrowerRig& rig, Site& site);
+/// Those that the rig declares.
+std::vector<Finding> examine(const config::DeviceRig& rig, Site& site);
 
 }  // namespace hogline::doctor

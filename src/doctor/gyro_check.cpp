@@ -62,6 +62,8 @@ Finding examine_gyro(Site& site) {
   const auto error = site.gyro().state().error;
   if (heard.readings == 0) {
     finding.found = "no reading";
+    site.describe_gyro_silence(finding);
+    if (!finding.remarks.empty()) return finding;
     const bool faulty = error && error->kind == hw::DeviceErrorKind::device_fault;
     finding.wrong(faulty ? "its readings are not valid: " + error->what
                          : "silent, or not understood: " + (error ? error->what : std::string("nothing arrives")),

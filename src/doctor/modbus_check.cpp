@@ -56,12 +56,14 @@ const char* advice_for(hw::DeviceErrorKind kind) {
     case hw::DeviceErrorKind::timeout:
       return "the line is there and nobody answers: check the unit number, the baud rate and the device's power";
     default:
-      return "check the wiring, and that no other master talks on this line";
+      return "what answers is no such device: check address and port, or on a serial line the wiring, the baud rate "
+             "and "
+             "that no other master talks";
   }
 }
 
 // False where there was no answer; the finding then says so.
-bool answered(const Answers& answers, Finding& finding) {
+bool answered(const Answers& answers, const Site& site, Finding& finding) {
   if (!answers.fault) {
     const double median_ms = answers.latencies_ms[answers.latencies_ms.size() / 2];
     finding.values.emplace_back("latency_ms", median_ms);
@@ -70,6 +72,8 @@ bool answered(const Answers& answers, Finding& finding) {
     return true;
   }
   finding.found = "no answer";
+  site.describe_modbus_silence(finding);
+  if (!finding.remarks.empty()) return false;
   finding.wrong(fmt::format("{}: {}", to_string(answers.fault->kind), answers.fault->what),
                 advice_for(answers.fault->kind));
   return false;
@@ -99,7 +103,7 @@ Finding examine_jaws(const hw::JawsConfig& config, Site& site) {
   const Answers answers = ask(site, config.unit, hw::robotiq::status_address, registers);
   const hw::robotiq::Status s = hw::robotiq::decode(registers);
   finding.found = fmt::format("{}, position {} of 255, {:.2f} A", describe(s), s.position, s.current_a);
-  if (!answered(answers, finding)) return finding;
+  if (!answered(answers, site, finding)) return finding;
   finding.values.emplace_back("state", std::string(describe(s)));
   finding.values.emplace_back("position", std::int64_t{s.position});
   finding.values.emplace_back("fault", std::int64_t{s.fault});
@@ -125,7 +129,7 @@ AxisFinding examine_axis(const char* device, hw::axis::Kind kind, const hw::Axis
   const Answers answers = ask(site, config.unit, hw::axis::status_address, registers);
   const hw::axis::Status s = hw::axis::decode(registers);
   axis.finding.found = s.moving ? "moving" : "at rest";
-  if (!answered(answers, axis.finding)) return axis;
+  if (!answered(answers, site, axis.finding)) return axis;
   axis.finding.values.emplace_back("kind", std::int64_t{s.kind});
   axis.finding.values.emplace_back("fault", std::int64_t{s.fault});
   axis.finding.values.emplace_back("watchdog_ms", std::int64_t{s.watchdog_ms});
@@ -138,7 +142,10 @@ AxisFinding examine_axis(const char* device, hw::axis::Kind kind, const hw::Axis
   }
   axis.status = s;
   if (s.faulted) {
-    axis.finding.wrong("fault: " + hw::axis::describe_fault(s.fault), "remove the cause; the command stop clears it");
+    const bool gone = s.fault == 0;
+    axis.finding.wrong(
+        "fault: " + hw::axis::describe_fault(s.fault),
+        gone ? "it is reset when a throw is armed" : "remove the cause; it is reset when a throw is armed");
   }
   if (s.moving) axis.finding.note("moves, though nobody asked it here", "is another program running?");
   return axis;
@@ -146,12 +153,16 @@ AxisFinding examine_axis(const char* device, hw::axis::Kind kind, const hw::Axis
 
 }  // namespace
 
-ModbusFindings examine_modbus(const hw::ModbusGripperConfig& gripper, const hw::AxisConfig& arm, Site& site) {
+ModbusFindings examine_modbus(const std::optional<hw::ModbusGripperConfig>& gripper,
+                              const std::optional<hw::AxisConfig>& arm, Site& site) {
   ModbusFindings all;
-  all.findings.push_back(examine_jaws(gripper.jaws, site));
-  all.findings.push_back(examine_axis("spin belt", hw::axis::Kind::belt, gripper.belt, site).finding);
+  if (gripper) {
+    all.findings.push_back(examine_jaws(gripper->jaws, site));
+    all.findings.push_back(examine_axis("spin belt", hw::axis::Kind::belt, gripper->belt, site).finding);
+  }
+  if (!arm) return all;
 
-  AxisFinding folding = examine_axis("arm", hw::axis::Kind::arm, arm, site);
+  AxisFinding folding = examine_axis("arm", hw::axis::Kind::arm, *arm, site);
   if (folding.status) {
     all.arm_unfolded = folding.status->unfolded;
     const char* place = folding.status->unfolded ? "unfolded" : folding.status->folded ? "folded" : "between its ends";

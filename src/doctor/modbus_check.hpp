@@ -16,6 +16,8 @@ struct ModbusFindings {
   std::optional<bool> arm_unfolded;  ///< nothing if the arm does not say
 };
 
-ModbusFindings examine_modbus(const hw::ModbusGripperConfig& gripper, const hw::AxisConfig& arm, Site& site);
+/// As far as the rig has them.
+ModbusFindings examine_modbus(const std::optional<hw::ModbusGripperConfig>& gripper,
+                              const std::optional<hw::AxisConfig>& arm, Site& site);
 
 }  // namespace hogline::doctor

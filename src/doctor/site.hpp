@@ -11,7 +11,8 @@
 
 namespace hogline::doctor {
 
-/// The doctor only listens and asks: it sends SDO uploads and Modbus reads. Nothing else may be sent by a site.
+/// The doctor only listens and asks: it sends SDO uploads and Modbus reads. Nothing else may be sent by a site. It asks
+/// only for the lines that the rig declares.
 class Site {
  public:
   virtual ~Site() = default;
@@ -31,12 +32,19 @@ class Site {
   /// "Modbus tcp 192.168.1.11:502".
   virtual std::string modbus_line() const = 0;
 
+  /// Adds why nobody can answer on this line, where the machine knows it: no such port, no right to it.
+  virtual void describe_modbus_silence(Finding&) const {}
+
   virtual hw::Gyro& gyro() = 0;
   virtual std::string gyro_line() const = 0;
+  /// As for the Modbus line.
+  virtual void describe_gyro_silence(Finding&) const {}
 
   /// Null where the pictures are simulated and this is not the simulated rink.
   virtual hw::Camera* camera(const std::string& name) = 0;
   virtual std::string camera_line(const std::string& name) const = 0;
+  /// What to do about a camera that gives no pictures; empty where the kind of error says enough.
+  virtual std::string camera_advice(const std::string&) const { return {}; }
   /// Adds what the camera's adapter knows: identity, counters.
   virtual void describe_camera(const std::string& name, Finding& finding) const = 0;
 };

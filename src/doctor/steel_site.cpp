@@ -8,70 +8,47 @@
 #include <utility>
 #include <variant>
 
-#include "hw/files/recorded_camera.hpp"
+#include "src/doctor/serial_device.hpp"
+#include "src/steel/rig_camera.hpp"
 
 namespace hogline::doctor {
 namespace {
 
 constexpr Duration can_period = std::chrono::milliseconds(1);
 
-// A recording that can not be played.
-class BrokenCamera final : public hw::Camera {
- public:
-  explicit BrokenCamera(hw::DeviceError error) : error_(std::move(error)) {}
-  std::optional<hw::Frame> latest(Stamp) override { return std::nullopt; }
-  std::optional<hw::DeviceError> error() const override { return error_; }
-  void rearm() override {}
-
- private:
-  hw::DeviceError error_;
-};
-
 template <typename... Makers>
 struct Overloaded : Makers... {
   using Makers::operator()...;
 };
 
-std::unique_ptr<hw::Camera> folder_camera(const config::FolderSource& folder, const std::string& name, cv::Size size,
-                                          Stamp start) {
-  hw::files::Recording recording = folder.stamps.empty() ? hw::files::read_folder(folder.path, folder.rate_hz)
-                                                         : hw::files::read_stamps_file(folder.stamps);
-  if (recording.problem.empty()) {
-    return std::make_unique<hw::files::FolderCamera>(name, std::move(recording), size, start);
-  }
-  return std::make_unique<BrokenCamera>(
-      hw::DeviceError{hw::DeviceErrorKind::disconnected, name, recording.problem, start});
-}
-
 }  // namespace
 
-SteelSite::SteelSite(const config::ThrowerRig& rig)
-    : rig_(rig),
-      can_({.interface = rig.rig.can_interface}, clock_.now()),
-      modbus_(rig.modbus),
-      gyro_port_(rig.gyro_port),
-      gyro_(gyro_port_, rig.gyro) {}
+SteelSite::SteelSite(const config::DeviceRig& rig) : rig_(rig) {
+  if (!rig.rig.can_interface.empty()) can_.emplace(hw::SocketCanConfig{.interface = rig.rig.can_interface}, now());
+  if (rig.modbus) modbus_.emplace(*rig.modbus);
+  if (rig.gyro) gyro_.emplace(gyro_port_.emplace(rig.gyro->port), rig.gyro->device);
+}
 
 void SteelSite::pass(Duration span) {
   for (const Stamp end = now() + span; now() < end;) {
     std::this_thread::sleep_for(std::min(can_period, Duration(end - now())));
-    can_.step(now());
+    if (can_) can_->step(now());
   }
 }
 
 std::string SteelSite::can_line() const { return "CAN " + rig_.rig.can_interface; }
 
 void SteelSite::describe_can(Finding& finding) const {
-  const hw::SocketCanState& state = can_.state();
-  finding.found = can_.up() ? fmt::format("{}, controller {}", finding.found, hw::to_string(state.controller))
-                            : std::string(hw::to_string(state.phase));
+  const hw::SocketCanState& state = can_->state();
+  finding.found = can_->up() ? fmt::format("{}, controller {}", finding.found, hw::to_string(state.controller))
+                             : std::string(hw::to_string(state.phase));
   finding.values.emplace_back("kernel_drops", static_cast<std::int64_t>(state.counters.kernel_drops));
   finding.values.emplace_back("error_frames", static_cast<std::int64_t>(state.counters.error_frames));
   finding.values.emplace_back("unconfirmed", static_cast<std::int64_t>(state.counters.unconfirmed));
   if (hw::CanSocket::open(rig_.rig.can_interface, {}).error == EAFNOSUPPORT) {
     finding.wrong("this machine's kernel has no CAN",
                   "boot a kernel with CONFIG_CAN (Debian's has it), or use --simulated");
-  } else if (const auto error = can_.error()) {
+  } else if (const auto error = can_->error()) {
     finding.wrong(error->what, "see doc/socketcan.md; the drives can not be asked until the bus is up");
   } else if (state.controller != hw::CanControllerState::active) {
     finding.wrong(fmt::format("the controller is in {}", hw::to_string(state.controller)),
@@ -85,38 +62,35 @@ std::string SteelSite::modbus_line() const {
   return std::visit(
       Overloaded{[](const hw::ModbusTcp& tcp) { return fmt::format("Modbus tcp {}:{}", tcp.address, tcp.port); },
                  [](const hw::ModbusRtu& rtu) { return fmt::format("Modbus rtu {} {}", rtu.device, rtu.baud); }},
-      rig_.modbus.line.line);
+      rig_.modbus->line.line);
+}
+
+void SteelSite::describe_modbus_silence(Finding& finding) const {
+  if (const auto* rtu = std::get_if<hw::ModbusRtu>(&rig_.modbus->line.line))
+    describe_serial_device(rtu->device, finding);
+}
+
+void SteelSite::describe_gyro_silence(Finding& finding) const {
+  describe_serial_device(rig_.gyro->port.device, finding);
 }
 
 std::string SteelSite::gyro_line() const {
-  return fmt::format("serial {} {}", rig_.gyro_port.device, rig_.gyro_port.baud);
+  return fmt::format("serial {} {}", rig_.gyro->port.device, rig_.gyro->port.baud);
 }
 
-std::string SteelSite::camera_line(const std::string& name) const {
-  return std::visit(
-      Overloaded{[](const config::SimulatedSource&) { return std::string("simulated"); },
-                 [](const hw::AravisConfig& a) { return "aravis " + a.serial; },
-                 [](const config::FolderSource& f) { return "folder " + (f.stamps.empty() ? f.path : f.stamps); },
-                 [](const config::VideoSource& v) { return "video " + v.path; }},
-      rig_.rig.source(name).device);
+std::string SteelSite::camera_line(const std::string& name) const { return describe_source(rig_.rig.source(name)); }
+
+std::string SteelSite::camera_advice(const std::string& name) const {
+  const auto& device = rig_.rig.source(name).device;
+  const bool recorded =
+      std::holds_alternative<config::FolderSource>(device) || std::holds_alternative<config::VideoSource>(device);
+  return recorded ? fmt::format("correct cameras.{}.source or the camera's size in the rig, or the recording", name)
+                  : "";
 }
 
 hw::Camera* SteelSite::camera(const std::string& name) {
   if (const auto open = cameras_.find(name); open != cameras_.end()) return open->second.get();
-  const vision::Intrinsics& lens = rig_.rig.camera(name).intrinsics;
-  const cv::Size size(lens.width_px, lens.height_px);
-  const std::string device = name + " camera";
-  std::unique_ptr<hw::Camera> camera =
-      std::visit(Overloaded{[](const config::SimulatedSource&) { return std::unique_ptr<hw::Camera>(); },
-                            [this](const hw::AravisConfig& a) -> std::unique_ptr<hw::Camera> {
-                              return std::make_unique<hw::AravisCamera>(a, clock_);
-                            },
-                            [&](const config::FolderSource& f) { return folder_camera(f, device, size, now()); },
-                            [&](const config::VideoSource& v) -> std::unique_ptr<hw::Camera> {
-                              return std::make_unique<hw::files::VideoCamera>(device, v.path, v.rate_hz, size, now());
-                            }},
-                 rig_.rig.source(name).device);
-  return cameras_.emplace(name, std::move(camera)).first->second.get();
+  return cameras_.emplace(name, open_rig_camera(rig_.rig, name, clock_)).first->second.get();
 }
 
 void SteelSite::describe_camera(const std::string& name, Finding& finding) const {

@@ -1,5 +1,5 @@
 // What can happen to the cameras: the low one in the run, the near one before it.
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -16,27 +16,6 @@ Action near(Fault fault) {
   return [fault](Site& s) { s.robot.near_camera().inject(fault); };
 }
 
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::camera,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal)};
-}
-
-Case with(Case c, Strike strike) {
-  c.strike = strike;
-  return c;
-}
-
-Case on(Case c, Duration lasts) {
-  c.expect = Expect::goes_on;
-  c.lasts = lasts;
-  return c;
-}
-
 }  // namespace
 
 std::vector<Case> camera_faults() {
@@ -50,8 +29,8 @@ std::vector<Case> camera_faults() {
                  near(Fault::stopped), near(Fault::none)),
            Strike::aligning),
       stops("frames stop", "low camera", 205ms, "low camera: timeout: no frame", low(Fault::stopped), well),
-      on(stops("one frame missing", "nothing for 20 ms", {}, "", low(Fault::stopped), well), 20ms),
-      on(stops("id gap", "four frames lost in a row", {}, "", low(Fault::stopped), well), 70ms),
+      goes_on("one frame missing", "nothing for 20 ms", 20ms, low(Fault::stopped), well),
+      goes_on("id gap", "four frames lost in a row", 70ms, low(Fault::stopped), well),
       stops("frames late", "delivered 0.12 s late", 205ms, "low camera: timeout", low(Fault::late), well),
       stops("old frames", "the last frame again, with its old stamp", next_frame, "low camera: implausible",
             low(Fault::frozen), well),
@@ -71,8 +50,7 @@ std::vector<Case> camera_faults() {
       with(stops("frozen", "near camera, while the robot turns", 75ms,
                  "near camera: implausible: the picture is frozen", near(Fault::repeated), near(Fault::none)),
            Strike::aligning),
-      with(on(stops("frames stop", "low camera, in the last metre: dead reckoning", {}, "", low(Fault::stopped), well),
-              {}),
+      with(goes_on("frames stop", "low camera, in the last metre: dead reckoning", {}, low(Fault::stopped), well),
            Strike::too_late),
   };
 }

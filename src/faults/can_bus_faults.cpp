@@ -1,5 +1,5 @@
 // What can happen to the bus itself, and who else may talk on it.
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -15,32 +15,6 @@ void clean(Site& s) {
 }
 void all_pass(Site& s) { bus(s).set_filter({}); }
 void adapter_back(Site& s) { bus(s).set_endpoint_up(s.rink().can(), true); }
-
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::can,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal)};
-}
-
-Case goes_on(const char* name, const char* injected, Duration lasts, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::can,
-          .injected = injected,
-          .expect = Expect::goes_on,
-          .says = {},
-          .inject = std::move(inject),
-          .heal = std::move(heal),
-          .lasts = lasts};
-}
-
-Case with(Case c, Strike strike) {
-  c.strike = strike;
-  return c;
-}
 
 std::vector<Case> outages() {
   const Action off = [](Site& s) { bus(s).set_up(false); };

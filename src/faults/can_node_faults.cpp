@@ -1,7 +1,7 @@
 // What a drive node can do wrong: its boot, its frames, its axis.
 #include <cstring>
 
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -45,7 +45,6 @@ std::vector<Case> boot_faults() {
   const auto boot = [](const char* name, const char* injected, Duration deadline, std::string says, Action inject,
                        Action heal) {
     return Case{.name = name,
-                .group = Group::can,
                 .injected = injected,
                 .strike = Strike::power_on,
                 .expect = Expect::does_not_start,
@@ -89,62 +88,34 @@ std::vector<Case> boot_faults() {
   };
 }
 
-Case run(const char* name, const char* injected, Duration deadline, std::string says, Action inject, Action heal = {}) {
-  return {.name = name,
-          .group = Group::can,
-          .injected = injected,
-          .deadline = deadline,
-          .says = std::move(says),
-          .inject = std::move(inject),
-          .heal = std::move(heal)};
-}
-
-Case short_of(Case c, const char* why) {
-  c.shortcoming = why;
-  return c;
-}
-
-Case with(Case c, Strike strike) {
-  c.strike = strike;
-  return c;
-}
-
-Case on(Case c, Duration lasts) {
-  c.expect = Expect::goes_on;
-  c.lasts = lasts;
-  c.deadline = {};
-  return c;
-}
-
 std::vector<Case> talking_faults() {
   return {
-      run(
+      stops(
           "heartbeat stops", "node 1 sends no 701, all else lives", 155ms, of_left("timeout: no heartbeat"),
           [](Site& s) { talk(s).heartbeat_stopped = true; }, talk_well),
-      with(run(
+      with(stops(
                "heartbeat stops", "the same, while the robot turns", 155ms, of_left("timeout: no heartbeat"),
                [](Site& s) { talk(s).heartbeat_stopped = true; }, talk_well),
            Strike::aligning),
-      short_of(run("unexpected boot-up", "node 1's supply fails for a moment", 35ms,
-                   of_left("device fault: unexpected boot-up"), supply_back, [](Site&) {}),
+      short_of(stops("unexpected boot-up", "node 1's supply fails for a moment", 35ms,
+                     of_left("device fault: unexpected boot-up"), supply_back, [](Site&) {}),
                rolls),
-      run(
+      stops(
           "PDO of wrong length", "node 1's TPDOs are a byte short", 15ms, of_left("protocol: TPDO1 of wrong length"),
           [](Site& s) { talk(s).tpdos_short = true; }, talk_well),
-      run(
+      stops(
           "TPDOs stop", "node 1 sends no TPDO, its heartbeat lives", 35ms, of_left("timeout: no feedback"),
           [](Site& s) { talk(s).tpdos_stopped = true; }, talk_well),
-      run(
+      stops(
           "frozen TPDO with live heartbeat", "node 1's TPDOs repeat old contents", 60ms,
           of_left("implausible: encoder"), [](Site& s) { talk(s).tpdos_frozen = true; }, talk_well),
-      on(run(
-             "one TPDO lost", "node 1's TPDOs are away for one period", {}, {},
-             [](Site& s) { talk(s).tpdos_stopped = true; }, talk_well),
-         5ms),
-      run(
+      goes_on(
+          "one TPDO lost", "node 1's TPDOs are away for one period", 5ms, [](Site& s) { talk(s).tpdos_stopped = true; },
+          talk_well),
+      stops(
           "duplicate id", "a second device boots as node 1", 50ms, of_left("device fault: unexpected boot-up"),
           [](Site& s) { s.stranger.send({.id = 0x701, .length = 1, .data = {0x00}}); }, [](Site&) {}),
-      run(
+      stops(
           "two nodes answer under one id", "a second 181 after each 181", 45ms, of_left("protocol: sends twice"),
           [](Site& s) {
             s.each_ms = [&s, ms = 0]() mutable {
@@ -152,22 +123,21 @@ std::vector<Case> talking_faults() {
             };
           },
           [](Site& s) { s.each_ms = {}; }),
-      on(run(
-             "RTR and 29-bit frames with our ids", "remote 181 and extended 00000181 at 1 kHz", {}, {},
-             [](Site& s) {
-               s.each_ms = [&s] {
-                 s.stranger.send({.id = 0x181, .remote = true, .length = 7, .data = {}});
-                 s.stranger.send({.id = 0x181, .extended = true, .length = 8, .data = {}});
-               };
-             },
-             [](Site& s) { s.each_ms = {}; }),
-         500ms),
+      goes_on(
+          "RTR and 29-bit frames with our ids", "remote 181 and extended 00000181 at 1 kHz", 500ms,
+          [](Site& s) {
+            s.each_ms = [&s] {
+              s.stranger.send({.id = 0x181, .remote = true, .length = 7, .data = {}});
+              s.stranger.send({.id = 0x181, .extended = true, .length = 8, .data = {}});
+            };
+          },
+          [](Site& s) { s.each_ms = {}; }),
   };
 }
 
 std::vector<Case> axis_faults() {
   std::vector<Case> cases{
-      short_of(with(run(
+      short_of(with(stops(
                         "statusword stuck at enabled, speed diverges",
                         "node 1 keeps 6041 and its speed while the robot speeds up", 1s,
                         of_left("implausible: speed does not follow"),
@@ -178,7 +148,7 @@ std::vector<Case> axis_faults() {
                         behave),
                     Strike::speeding_up),
                drives_on),
-      run(
+      stops(
           "EMCY flood", "node 1 sends seven EMCY 8110 a millisecond", 15ms, of_left("device fault: EMCY 8110"),
           [](Site& s) {
             s.each_ms = [&s] {
@@ -186,48 +156,46 @@ std::vector<Case> axis_faults() {
             };
           },
           [](Site& s) { s.each_ms = {}; }),
-      run(
+      stops(
           "drive fault", "node 1: EMCY 2310 (current), fault reaction", 15ms, of_left("device fault: EMCY 2310"),
           [](Site& s) { s.left().raise_fault(0x2310); }, [](Site&) {}),
-      with(run(
+      with(stops(
                "fault during quick stop", "node 1: EMCY 7500 while it brakes", 15ms, of_left("device fault: EMCY 7500"),
                [](Site& s) { s.left().raise_fault(0x7500); }, [](Site&) {}),
            Strike::braking),
-      run(
+      stops(
           "one wheel lost, its brake closes", "node 1 dies, holding brake", 35ms, of_left("timeout: no feedback"),
           [](Site& s) { s.left().kill(AxisPower::braked); }, supply_back),
-      short_of(run(
+      short_of(stops(
                    "one wheel lost, its axis coasts", "node 1 dies without power", 35ms,
                    of_left("timeout: no feedback"), [](Site& s) { s.left().kill(AxisPower::unpowered); }, supply_back),
                rolls),
-      run(
+      stops(
           "encoder jumps", "node 1's 6064 jumps by two motor turns", 15ms, of_left("implausible"),
           [](Site& s) { s.left().axis().slip_encoder(2.0); }, [](Site&) {}),
-      run(
+      stops(
           "encoder changes its sign", "node 1's 6064 counts backwards", 30ms, of_left("implausible"),
           [](Site& s) { s.left().faults.position_scale = -1.0; }, behave),
-      run(
+      stops(
           "encoder changes its scale", "node 1's 6064 halves", 60ms, of_left("implausible: encoder"),
           [](Site& s) { s.left().faults.position_scale = 0.5; }, behave),
   };
-  Case ignored = run("quick stop ignored", "a gyro fault at 2.5 m/s; node 1 does not obey controlword bit 2", 60ms,
-                     of_left("refused: transition 11"), {}, [](Site& s) {
-                       behave(s);
-                       s.rink().gyro().set_silent(false);
-                     });
+  Case ignored = stops("quick stop ignored", "a gyro fault at 2.5 m/s; node 1 does not obey controlword bit 2", 60ms,
+                       of_left("refused: transition 11"), {}, [](Site& s) {
+                         behave(s);
+                         s.rink().gyro().set_silent(false);
+                       });
   ignored.inject = [](Site& s) {
     s.left().faults.quick_stop_ignored = true;
     s.rink().gyro().set_silent(true);
   };
   cases.push_back(ignored);
 
-  Case wrap = on(run("position counter wraps", "both 6064 pass 2^31 in the run", {}, {},
-                     [](Site& s) {
-                       constexpr double turns = 2147483648.0 / 65536.0;
-                       s.left().axis().slip_encoder(turns - 150.0);
-                       s.right().axis().slip_encoder(-turns + 150.0);
-                     }),
-                 {});
+  Case wrap = goes_on("position counter wraps", "both 6064 pass 2^31 in the run", {}, [](Site& s) {
+    constexpr double turns = 2147483648.0 / 65536.0;
+    s.left().axis().slip_encoder(turns - 150.0);
+    s.right().axis().slip_encoder(-turns + 150.0);
+  });
   wrap.strike = Strike::power_on;
   cases.push_back(wrap);
   return cases;

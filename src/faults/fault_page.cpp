@@ -18,7 +18,8 @@ look at rendered pictures of a fifth of the size.
   near the hog line to stop before it; release = just after the order to open.
 - *detected*: from the injection until the controller gave up the throw, and the deadline that the test asks for.
 - *stopped*: from the injection (the first of two) until body and wheels stood, and the way until then. Wheels brake at
-  2.5 m/s2: 1.0 s and 1.25 m from 2.5 m/s without any delay.
+  2.5 m/s2: 1.0 s and 1.25 m from 2.5 m/s without any delay. A robot that needs a longer way than that and its delay
+  is not said to stop: it *rolls until friction stops it*.
 - *kept*: the stone was not let go. After each stop the cause was taken away, three seconds passed, everything was
   re-armed, and three more passed: nothing moved, or the row stands under the last heading.
 - Modbus exchanges take no simulated time: on steel a lost answer is noticed up to the response timeout later, and
@@ -57,10 +58,10 @@ std::string outcome_of(const Row& row) {
     default:
       break;
   }
-  if (row.fault.expect == Expect::stops_without_stone) return "stops, stone lost by the jaws";
-  if (!f.held) return f.result.release ? "stone let go in its window, stops" : "stops, stone lost";
-  if (f.over_the_line) return "stops, stone kept beyond the hog line";
-  return "stops, stone kept";
+  const std::string stops = f.braked ? "stops" : f.stopped_after_s ? "rolls until friction stops it" : "does not stop";
+  if (row.fault.expect == Expect::stops_without_stone) return stops + ", stone lost by the jaws";
+  if (!f.held) return f.result.release ? "stone let go in its window, " + stops : stops + ", stone lost";
+  return stops + (f.over_the_line ? ", stone kept beyond the hog line" : ", stone kept");
 }
 
 std::string in_ms(const std::optional<double>& span_s) { return span_s ? fmt::format("{:.0f}", 1e3 * *span_s) : "-"; }

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "src/faults/fault_case.hpp"
 
 namespace hogline::faults {
@@ -40,13 +42,26 @@ const char* to_string(Strike strike) {
   return "unknown";
 }
 
+namespace {
+
+void append(std::vector<Case>& table, Group group, std::vector<Case> rows) {
+  for (Case& row : rows) {
+    row.group = group;
+    table.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
 const std::vector<Case>& fault_table() {
   static const std::vector<Case> table = [] {
     std::vector<Case> all;
-    for (const auto& part :
-         {can_node_faults(), can_bus_faults(), modbus_faults(), gyro_faults(), camera_faults(), host_faults()}) {
-      all.insert(all.end(), part.begin(), part.end());
-    }
+    append(all, Group::can, can_node_faults());
+    append(all, Group::can, can_bus_faults());
+    append(all, Group::modbus, modbus_faults());
+    append(all, Group::gyro, gyro_faults());
+    append(all, Group::camera, camera_faults());
+    append(all, Group::host, host_faults());
     return all;
   }();
   return table;

@@ -39,7 +39,6 @@ ThrowRequest plain_request() {
 
 ThrowRequest request_of(const Case& fault) {
   ThrowRequest request = plain_request();
-  request.rig.modbus.line.response_timeout = 20s;  // of the wall: a busy machine is no fault of this table
   if (fault.prepare) fault.prepare(request);
   request.rig = with_small_pictures(std::move(request.rig));
   return request;
@@ -144,7 +143,8 @@ void Trial::power_on() {
     detected_ = error->since;
   }
   loop_.emplace(robot_.devices(), ThrowerEyes(seer_, request_.rig.looks),
-                servo::Thrower(request_.rig.thrower, request_.order, now()));
+                servo::Thrower(request_.rig.thrower, request_.order, now()), servo::Supervisor(request_.rig.thrower));
+  loop_->arm(now());
   judge_.emplace(request_.rig.thrower, robot_.scenario(), request_.order, now());
 }
 
@@ -362,6 +362,7 @@ void Trial::judge_stop() {
   const double v = finding_.speed_mps;
   const double blind_s = std::min(detected_s, 1.0) + (case_.strike == Strike::braking ? 0.25 : 0.1);
   const double limit_m = case_.stop_limit_m > 0.0 ? case_.stop_limit_m : v * blind_s + v * v / (2.0 * 2.5) + 0.15;
+  finding_.braked = finding_.stopped_after_s.has_value() && finding_.stop_distance_m <= limit_m;
   expect(finding_.stop_distance_m <= limit_m,
          fmt::format("took {:.2f} m to stop, {:.2f} m allowed", finding_.stop_distance_m, limit_m));
 }

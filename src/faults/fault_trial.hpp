@@ -14,6 +14,7 @@ struct Finding {
   std::optional<double> detected_after_s;  ///< injection to abort; empty: never
   std::optional<double> stopped_after_s;   ///< injection (of the first fault, where there are two) to standstill
   double stop_distance_m = 0.0;            ///< the way of the body from then
+  bool braked = false;                     ///< ... which is no longer than a quick stop needs
   double speed_mps = 0.0;                  ///< when it was injected
   bool held = false;                       ///< the stone is still in the jaws
   bool over_the_line = false;              ///< ... and was carried into the hog line

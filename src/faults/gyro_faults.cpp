@@ -1,7 +1,7 @@
 // What can happen to the gyro and its line.
 #include <numbers>
 
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -14,48 +14,25 @@ constexpr Duration silence = 45ms;  // the silence limit, a reading and a contro
 
 GyroDevice& gyro(Site& s) { return s.rink().gyro(); }
 
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::gyro,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal)};
-}
-
-Case with(Case c, Strike strike) {
-  c.strike = strike;
-  return c;
-}
-
-Case on(Case c, Duration lasts) {
-  c.expect = Expect::goes_on;
-  c.lasts = lasts;
-  c.deadline = {};
-  c.says.clear();
-  return c;
-}
-
 Action biased(double degps) {
   return [degps](Site& s) { gyro(s).add_bias(degps * deg); };
 }
 
 Case at_line_rate(const char* name, const char* injected, double factor) {
-  Case c = on(stops(name, injected, {}, "", [](Site&) {}, {}), {});
+  Case c = goes_on(name, injected, {}, [](Site&) {});
   c.strike = Strike::power_on;
   c.prepare = [factor](ThrowRequest& request) { request.scenario.gyro.line_rate_hz *= factor; };
   return c;
 }
 
+void enter_wrong_mode(Site& s) {
+  gyro(s).set_mode(GyroDevice::Mode::incremental_angle);
+  gyro(s).set_deaf(true);
+}
+void hear_again(Site& s) { gyro(s).set_deaf(false); }
+
 Case wrong_mode(const char* injected) {
-  return stops(
-      "wrong mode", injected, 1s, "gyro",
-      [](Site& s) {
-        gyro(s).set_mode(GyroDevice::Mode::incremental_angle);
-        gyro(s).set_deaf(true);
-      },
-      [](Site& s) { gyro(s).set_deaf(false); });
+  return stops("wrong mode", injected, 1s, "gyro", enter_wrong_mode, hear_again);
 }
 
 Case over_words(Case c) {
@@ -68,7 +45,8 @@ Case over_words(Case c) {
 std::vector<Case> gyro_faults() {
   const Action silent = [](Site& s) { gyro(s).set_silent(true); };
   const Action speaks = [](Site& s) { gyro(s).set_silent(false); };
-  Case unnoticed = on(wrong_mode("incremental angle instead of rate, in the run"), {});
+  Case unnoticed =
+      goes_on("wrong mode", "incremental angle instead of rate, in the run", {}, enter_wrong_mode, hear_again);
   unnoticed.shortcoming =
       "the text variant does not say its mode, and on a straight run an angle's increment looks like a small rate. "
       "Nobody notices: the stone is let go in its window, but its heading can be off by more than the tolerance. On "
@@ -81,7 +59,7 @@ std::vector<Case> gyro_faults() {
            Strike::measuring),
       with(stops("silence", "the same, while the robot turns", silence, "gyro: timeout", silent, speaks),
            Strike::aligning),
-      on(stops("one reading missing", "silent for 10 ms", {}, "", silent, speaks), 10ms),
+      goes_on("one reading missing", "silent for 10 ms", 10ms, silent, speaks),
       stops(
           "invalid bit", "each reading is marked 0", silence, "gyro", [](Site& s) { gyro(s).set_valid(false); },
           [](Site& s) { gyro(s).set_valid(true); }),
@@ -93,17 +71,16 @@ std::vector<Case> gyro_faults() {
           [](Site& s) { gyro(s).set_stuck(true); }, [](Site& s) { gyro(s).set_stuck(false); }),
       with(stops("bias step", "0.5 deg/s while the robot measures", 3s, "gyro", biased(0.5), biased(-0.5)),
            Strike::measuring),
-      stops("bias step", "20 deg/s in the run", 200ms, "gyro and wheels disagree", biased(20.0), biased(-20.0)),
+      stops("bias step", "18 deg/s in the run", 200ms, "gyro and wheels disagree", biased(18.0), biased(-18.0)),
       stops("bias step", "2 deg/s in the run", 1s, "the sheet's direction and the gyro disagree", biased(2.0),
             biased(-2.0)),
       stops("overrange", "600 deg/s, marked valid", silence, "gyro: implausible", biased(600.0), biased(-600.0)),
       with(wrong_mode("incremental angle instead of rate, while the robot turns"), Strike::aligning),
       unnoticed,
       over_words(wrong_mode("incremental angle instead of rate, binary variant")),
-      on(stops(
-             "burst after a stall", "held for 10 ms, then all at once", {}, "", [](Site& s) { gyro(s).set_held(true); },
-             [](Site& s) { gyro(s).set_held(false); }),
-         10ms),
+      goes_on(
+          "burst after a stall", "held for 10 ms, then all at once", 10ms, [](Site& s) { gyro(s).set_held(true); },
+          [](Site& s) { gyro(s).set_held(false); }),
       stops(
           "burst after a long stall", "held for 0.3 s, then all at once", silence, "gyro: timeout",
           [](Site& s) { gyro(s).set_held(true); }, [](Site& s) { gyro(s).set_held(false); }),

@@ -1,33 +1,13 @@
 // What can happen to the program, and to the robot as a whole.
 #include <limits>
 
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
 
 using namespace std::chrono_literals;
 using hw::sim::AxisPower;
-
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::host,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal)};
-}
-
-Case on(Case c) {
-  c.expect = Expect::goes_on;
-  return c;
-}
-
-Case with(Case c, Strike strike) {
-  c.strike = strike;
-  return c;
-}
 
 void power_cut(Site& s) {
   s.left().kill(AxisPower::braked);
@@ -47,7 +27,7 @@ std::vector<Case> host_faults() {
       "program killed or hung", "the control loop does not run until the robot stands", 60ms, "on the bus: EMCY 8250",
       [](Site& s) { s.loop_dead = true; }, [](Site& s) { s.loop_dead = false; });
   return {
-      on(stops("control thread late by 4 ms", "one period", {}, "", [](Site& s) { s.loop_late = 4ms; }, {})),
+      goes_on("control thread late by 4 ms", "one period", {}, [](Site& s) { s.loop_late = 4ms; }),
       stops("control thread late by 30 ms", "one period", 40ms, "drive: timeout: the control loop did not run", late,
             nothing),
       with(stops("control thread late by 30 ms", "one period, while the robot turns", 40ms,

@@ -1,5 +1,5 @@
 // What can happen between the program and the gripper and arm, and in them.
-#include "src/faults/fault_case.hpp"
+#include "src/faults/case_words.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -29,41 +29,10 @@ Action device(Change change) {
   return [change](Site& s) { s.rink().modbus().inject(change); };
 }
 
-// The stepped clock stands still while an exchange waits for an answer that does not come: few attempts, short tests.
-void patient(ThrowRequest& request) {
-  request.rig.modbus.reconnect_delay = 1s;
-  request.rig.modbus.line.response_timeout = 3s;
-}
-
-void over_rtu(ThrowRequest& request) {
-  patient(request);
-  request.rig.modbus.line.line = hw::ModbusRtu{.device = {}, .baud = 115200};
-}
-
-Case stops(const char* name, const char* injected, Duration deadline, const char* says, Action inject, Action heal) {
-  return {.name = name,
-          .group = Group::modbus,
-          .injected = injected,
-          .deadline = deadline,
-          .says = says,
-          .inject = std::move(inject),
-          .heal = std::move(heal),
-          .prepare = patient};
-}
+void over_rtu(ThrowRequest& request) { request.rig.modbus.line.line = hw::ModbusRtu{.device = {}, .baud = 115200}; }
 
 Case serial(Case c) {
   c.prepare = over_rtu;
-  return c;
-}
-
-Case short_of(Case c, const char* why) {
-  c.shortcoming = why;
-  return c;
-}
-
-Case with(Case c, Strike strike, Expect expect = Expect::stops) {
-  c.strike = strike;
-  c.expect = expect;
   return c;
 }
 
@@ -74,10 +43,7 @@ std::vector<Case> line_faults() {
                         tampers([](ModbusBytes& a) { a[6] ^= 0x40; }), well);
   forgiven.expect = Expect::goes_on;
   forgiven.lasts = 5ms;
-  forgiven.prepare = [](ThrowRequest& request) {
-    patient(request);
-    request.rig.modbus.reconnect_delay = 20ms;
-  };
+  forgiven.prepare = [](ThrowRequest& request) { request.rig.modbus.reconnect_delay = 20ms; };
   return {
       stops("server dies", "connections reset, port closed", silence, "jaws: disconnected", dies, lives),
       with(stops("server dies", "the same, while the robot measures", silence, "jaws: disconnected", dies, lives),
@@ -138,19 +104,14 @@ std::vector<Case> device_faults() {
             "jaws: device fault: the jaws lost their activation",
             device([](auto& jaws, auto&, auto&) { jaws.cut_power(); }), {}),
       stops("spin belt fault", "the belt reports a fault", 30ms, "spin belt: device fault",
-            device([](auto&, auto& belt, auto&) { belt.set_fault(1); }), device([](auto&, auto& belt, auto&) {
-              belt.set_fault(0);
-              belt.power_cycle();
-            })),
+            device([](auto&, auto& belt, auto&) { belt.set_fault(1); }),
+            device([](auto&, auto& belt, auto&) { belt.set_fault(0); })),
       stops("spin belt restarts", "its supply fails for a moment", 30ms, "spin belt: protocol",
             device([](auto&, auto& belt, auto&) { belt.power_cycle(); }), [](Site&) {}),
-      with(
-          stops("folding arm fault", "the arm reports a fault while the robot turns", 60ms, "folding arm: device fault",
-                device([](auto&, auto&, auto& arm) { arm.set_fault(1); }), device([](auto&, auto&, auto& arm) {
-                  arm.set_fault(0);
-                  arm.power_cycle();
-                })),
-          Strike::aligning),
+      with(stops("folding arm fault", "the arm reports a fault while the robot turns", 60ms,
+                 "folding arm: device fault", device([](auto&, auto&, auto& arm) { arm.set_fault(1); }),
+                 device([](auto&, auto&, auto& arm) { arm.set_fault(0); })),
+           Strike::aligning),
       with(stops(
                "server dies at the release", "in the period after the order to open", silence, "jaws: disconnected",
                [](Site& s) { s.rink().modbus().stop(); }, [](Site& s) { s.rink().modbus().restart(); }),

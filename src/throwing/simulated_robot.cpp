@@ -1,12 +1,12 @@
 #include "src/throwing/simulated_robot.hpp"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
+#include <variant>
 
 namespace hogline {
 namespace {
 
-constexpr int render_threads = 2;
 constexpr Stamp simulation_start{std::chrono::seconds{1}};  // the epoch stands for "never heard of"
 
 hw::sim::Scenario completed(hw::sim::Scenario scenario, const config::ThrowerRig& rig) {
@@ -46,19 +46,8 @@ hw::sim::RinkConfig rink_config(const config::ThrowerRig& rig, const hw::sim::Sc
           .bus = {.bit_rate_hz = bit_rate_hz}};
 }
 
-// Devices that share a busy machine with this program may be held up longer than any on steel: the stepped clock stands
-// still meanwhile.
-constexpr Duration simulated_response_timeout = std::chrono::seconds{1};
-
-// The line as the rig file describes it, but to the rink's own port or terminal.
-hw::ModbusSessionConfig to_rink(hw::ModbusSessionConfig config, hw::sim::ModbusDevices& devices) {
-  if (auto* rtu = std::get_if<hw::ModbusRtu>(&config.line.line)) {
-    rtu->device = devices.serve_rtu();
-  } else {
-    config.line.line = hw::ModbusTcp{.address = "127.0.0.1", .port = devices.port()};
-  }
-  config.line.response_timeout = std::max(config.line.response_timeout, simulated_response_timeout);
-  return config;
+hw::sim::ModbusWire wire_of(const hw::ModbusLineConfig& config) {
+  return std::holds_alternative<hw::ModbusTcp>(config.line) ? hw::sim::ModbusWire::tcp : hw::sim::ModbusWire::rtu;
 }
 
 hw::sim::CameraRig camera_rig(const vision::CameraSetup& setup) {
@@ -72,11 +61,12 @@ hw::CameraWatch watch_of(const config::Rig& rig, const std::string& camera) {
 
 }  // namespace
 
-SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario)
+SimulatedRobot::SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario, int render_threads)
     : scenario_(completed(std::move(scenario), rig)),
       rink_(rink_config(rig, scenario_), simulation_start),
       drive_(rink_.can(), rig.drive),
-      session_(to_rink(rig.modbus, rink_.modbus())),
+      modbus_line_(rink_.modbus(), wire_of(rig.modbus.line)),
+      session_(rig.modbus, hw::stepped_line(modbus_line_)),
       gripper_(session_, rig.gripper),
       arm_(session_, rig.arm),
       gyro_line_(rink_),

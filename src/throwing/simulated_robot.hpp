@@ -7,22 +7,28 @@
 #include "hw/modbus/modbus_arm.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
+#include "hw/operator_switch.hpp"
 #include "hw/sim/rink.hpp"
 #include "hw/sim/rink_cameras.hpp"
 #include "src/config/thrower_rig.hpp"
 #include "src/throwing/rink_gyro_line.hpp"
+#include "src/throwing/rink_modbus_line.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
 
 class SimulatedRobot {
  public:
-  /// The scenario's wheel radius, track and stone place are taken from the rig.
-  SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario);
+  /// The scenario's wheel radius, track and stone place are taken from the rig. Pictures do not depend on the threads
+  /// that render them.
+  SimulatedRobot(const config::ThrowerRig& rig, hw::sim::Scenario scenario, int render_threads = 2);
   SimulatedRobot(const SimulatedRobot&) = delete;
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 
-  ThrowerDevices devices() { return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_}; }
+  ThrowerDevices devices() {
+    return {drive_, gripper_, arm_, gyro_, near_checked_, low_checked_, operator_switch_, rink_.clock()};
+  }
+  hw::HeldSwitch& operator_switch() { return operator_switch_; }
   hw::sim::Rink& rink() { return rink_; }
   const hw::sim::Scenario& scenario() const { return scenario_; }
   const hw::sim::Rink& rink() const { return rink_; }
@@ -35,6 +41,7 @@ class SimulatedRobot {
   hw::sim::Scenario scenario_;
   hw::sim::Rink rink_;
   hw::TwoWheelDrive drive_;
+  RinkModbusLine modbus_line_;
   hw::ModbusSession session_;
   hw::ModbusGripper gripper_;
   hw::ModbusArm arm_;
@@ -44,6 +51,7 @@ class SimulatedRobot {
   hw::sim::RenderedCamera low_camera_;
   hw::CheckedCamera near_checked_;
   hw::CheckedCamera low_checked_;
+  hw::HeldSwitch operator_switch_;
 };
 
 }  // namespace hogline

@@ -1,45 +1,16 @@
 #include "src/throwing/simulated_throw.hpp"
 
-#include "src/throwing/throw_judge.hpp"
-#include "vision/geometry/sheet.hpp"
+#include "src/throwing/throw_recorder.hpp"
 
 namespace hogline {
 namespace {
 
-using servo::ThrowerState;
-
 constexpr Duration boot_limit = std::chrono::seconds{8};
-constexpr Duration throw_limit = std::chrono::seconds{90};
-constexpr Duration slide_limit = std::chrono::seconds{60};
+}  // namespace
 
-ThrowSample sample_of(const hw::sim::Truth& truth, const servo::Thrower& thrower, double t_s) {
-  const servo::ThrowerDiagnosis& d = thrower.diagnosis();
-  return {.t_s = t_s,
-          .state = thrower.state(),
-          .true_body = truth.body,
-          .true_speed_mps = truth.twist.forward_mps,
-          .true_hog_distance_m = vision::rules::tee_to_hog_m - truth.body.y_m,
-          .stone_x_m = truth.stone.x_m,
-          .stone_y_m = truth.stone.y_m,
-          .stone_held = truth.held,
-          .believed_yaw_rad = d.yaw_rad,
-          .believed_hog_distance_m = d.hog_distance_m,
-          .believed_speed_mps = d.speed_mps,
-          .speed_setpoint_mps = d.speed_setpoint_mps};
-}
-
-std::optional<Stamp> run_since(const servo::Thrower& thrower) {
-  for (const auto& entry : thrower.history()) {
-    if (entry.state == ThrowerState::run) return entry.since;
-  }
-  return std::nullopt;
-}
-
-config::ThrowerRig rig_of(const ThrowRequest& request) {
+config::ThrowerRig simulated_rig(const ThrowRequest& request) {
   return request.eyes == Eyes::oracle ? with_small_pictures(request.rig) : request.rig;
 }
-
-}  // namespace
 
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig) {
   constexpr int divisor = 5;
@@ -74,7 +45,7 @@ void boot(SimulatedRobot& robot, Duration period) {
 }
 
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) {
-  SimulatedRobot robot(rig_of(request), request.scenario);
+  SimulatedRobot robot(simulated_rig(request), request.scenario, request.render_threads);
   const Duration period = request.rig.drive.timing.control_period;
   boot(robot, period);
 
@@ -83,38 +54,18 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   OracleSeer oracle = oracle_of(robot, request.rig);
   SheetSeer& seer = request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision;
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
-                   servo::Thrower(request.rig.thrower, request.order, start));
-  ThrowJudge judge(request.rig.thrower, robot.scenario(), request.order, start);
-  ThrowOutcome outcome;
-  bool fault_waits = request.fault.has_value();
-  Stamp finished_at{};
+                   servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
+  loop.arm(start);
+  ThrowRecorder recorder(request, robot, start);
   for (;;) {
     robot.rink().step(period);
     const Stamp now = robot.rink().now();
-    const auto running = run_since(loop.thrower());
-    if (fault_waits && running && now >= *running + from_seconds(request.fault->run_time_s)) {
-      inject(request.fault->kind, robot);
-      fault_waits = false;
-    }
+    recorder.before(now, loop.thrower());
     loop.step(now, period);
-    const hw::sim::Truth& truth = robot.rink().truth();
-    judge.watch(truth, loop.thrower());
-    const double t_s = seconds(now - start);
-    outcome.log.samples.push_back(sample_of(truth, loop.thrower(), t_s));
-    if (progress) progress(t_s, loop.thrower().state());
-
-    if (loop.thrower().finished() && finished_at == Stamp{}) finished_at = now;
-    const bool robot_done = finished_at != Stamp{} || now - start > throw_limit;
-    const bool slides = request.follow_stone && stone_moves(truth) && now - start < throw_limit + slide_limit;
-    if (robot_done && !slides) break;
+    recorder.after(now, loop.thrower(), progress);
+    if (recorder.robot_done(now, loop.thrower()) && !recorder.stone_slides(now)) break;
   }
-  outcome.result = judge.verdict(robot.rink().truth(), loop.thrower(), robot.rink().now());
-  for (const hw::DeviceError& error : loop.device_errors()) {
-    outcome.result.device_errors.push_back(error.device + ": " + to_string(error.kind) + ": " + error.what);
-  }
-  outcome.near_sight = vision.near_sight();
-  outcome.low_sight = vision.low_sight();
-  return outcome;
+  return recorder.outcome(loop, vision);
 }
 
 }  // namespace hogline

@@ -25,6 +25,7 @@ struct ThrowRequest {
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
   bool follow_stone = true;  ///< go on until the released stone lies still
+  int render_threads = 2;
 };
 
 /// What there is to show of a throw.
@@ -40,6 +41,9 @@ using Progress = std::function<void(double t_s, servo::ThrowerState state)>;
 
 /// The same rig with cameras of a fifth of the width and height: enough for what is not seen by vision.
 config::ThrowerRig with_small_pictures(config::ThrowerRig rig);
+
+/// The rig as the eyes need it.
+config::ThrowerRig simulated_rig(const ThrowRequest& request);
 
 /// Sees on the robot's rink what vision would see on the practice rink.
 OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig);

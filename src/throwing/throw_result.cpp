@@ -25,6 +25,19 @@ ordered_json release_json(const ReleaseOutcome& r) {
           {"spin_error_radps", r.spin_error_radps}};
 }
 
+ordered_json realtime_json(const RealtimeFigures& r) {
+  return {{"commands", r.commands},
+          {"frame_to_command_p50_ms", r.frame_to_command_p50_ms},
+          {"frame_to_command_p99_ms", r.frame_to_command_p99_ms},
+          {"look_to_command_p50_ms", r.look_to_command_p50_ms},
+          {"look_to_command_p99_ms", r.look_to_command_p99_ms},
+          {"looks", r.looks},
+          {"periods", r.periods},
+          {"late_p99_ms", r.late_p99_ms},
+          {"late_max_ms", r.late_max_ms},
+          {"scheduled_first", r.scheduled_first}};
+}
+
 }  // namespace
 
 std::string result_line(const ThrowResult& result) {
@@ -42,6 +55,9 @@ std::string result_line(const ThrowResult& result) {
   line["stop_hog_distance_m"] = result.stop_hog_distance_m;
   line["rest"] =
       result.rest ? ordered_json{{"x_m", result.rest->x_m}, {"y_m", result.rest->y_m}} : ordered_json(nullptr);
+  line["measured_delay_s"] = or_null(result.measured_delay_s);
+  if (result.fault_struck) line["fault_struck"] = *result.fault_struck;
+  if (result.realtime) line["realtime"] = realtime_json(*result.realtime);
   line["sim_time_s"] = result.sim_time_s;
   line["wall_time_s"] = result.wall_time_s;
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -7,6 +7,7 @@
 
 #include "hw/sim/truth.hpp"
 #include "servo/thrower.hpp"
+#include "src/throwing/latency_record.hpp"
 
 namespace hogline {
 
@@ -33,9 +34,13 @@ struct ThrowResult {
   std::optional<double> yaw_after_alignment_rad;  ///< true heading less the ordered one, when the alignment ended
   std::vector<StateTime> states;
   std::optional<std::string> abort;
-  std::vector<std::string> device_errors;   ///< what each device said of itself, in the order of its coming
-  double stop_hog_distance_m = 0.0;         ///< where the robot came to rest
-  std::optional<hw::sim::StoneTruth> rest;  ///< where the released stone came to rest, in e
+  std::vector<std::string> device_errors;    ///< what each device said of itself, in the order of its coming
+  double stop_hog_distance_m = 0.0;          ///< where the robot came to rest
+  std::optional<hw::sim::StoneTruth> rest;   ///< where the released stone came to rest, in e
+  std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
+  std::optional<double> freed_at_speed_mps;  ///< of the body, as believed then
+  std::optional<bool> fault_struck;          ///< of the injected fault; false: the run was over before
+  std::optional<RealtimeFigures> realtime;   ///< of a throw against the wall clock
   double sim_time_s = 0.0;
   double wall_time_s = 0.0;
 };

@@ -3,9 +3,11 @@
 
 #include "hw/arm.hpp"
 #include "hw/camera.hpp"
+#include "hw/clock.hpp"
 #include "hw/drive.hpp"
 #include "hw/gripper.hpp"
 #include "hw/gyro.hpp"
+#include "hw/operator_switch.hpp"
 
 namespace hogline {
 
@@ -17,6 +19,8 @@ struct ThrowerDevices {
   hw::Gyro& gyro;
   hw::Camera& near_camera;
   hw::Camera& low_camera;
+  hw::OperatorSwitch& operator_switch;
+  const hw::Clock& clock;
 };
 
 }  // namespace hogline

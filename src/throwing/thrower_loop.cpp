@@ -52,6 +52,7 @@ std::optional<servo::GripperObservation> observe_gripper(const hw::GripperState&
       .open = gripper.jaws == hw::JawState::open || gripper.opening_since.has_value(),
       .spin_radps = gripper.spin_radps,
       .opening_since = gripper.opening_since,
+      .freed_at = gripper.freed_at,
   };
 }
 
@@ -67,10 +68,23 @@ std::optional<servo::GyroObservation> observe_gyro(const hw::GyroState& gyro) {
   return servo::GyroObservation{.stamp = gyro.stamp, .rate_radps = gyro.rate_radps, .valid = gyro.valid};
 }
 
+std::optional<servo::OperatorObservation> observe_switch(const hw::OperatorSwitchState& operator_switch) {
+  if (!heard(operator_switch.stamp)) return std::nullopt;
+  return servo::OperatorObservation{.stamp = operator_switch.stamp, .held = operator_switch.held};
+}
+
 }  // namespace
 
-ThrowerLoop::ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower)
-    : devices_(devices), eyes_(std::move(eyes)), thrower_(std::move(thrower)) {}
+ThrowerLoop::ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower,
+                         servo::Supervisor supervisor)
+    : devices_(devices), eyes_(std::move(eyes)), thrower_(std::move(thrower)), supervisor_(std::move(supervisor)) {}
+
+std::optional<std::string> ThrowerLoop::arm(Stamp now) {
+  devices_.operator_switch.step(now);
+  auto refused = supervisor_.arm(observe(now));
+  refusal_ = refused.value_or("");
+  return refused;
+}
 
 void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.drive.step(now);
@@ -78,10 +92,12 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
   devices_.arm.step(now);
   devices_.gyro.at_rest(stands(devices_.drive.state()));
   devices_.gyro.step(now);
+  devices_.operator_switch.step(now);
   eyes_.look(command_.camera, devices_.near_camera, devices_.low_camera, now, low_view_hint());
 
   if (!thrower_.finished()) note_errors();  // afterwards nobody sends set-points, and the drives say so
-  command_ = thrower_.step(observe(now), dt);
+  const servo::ThrowerObservation seen = observe(now);
+  command_ = supervisor_.permit(seen, thrower_.step(seen, dt), dt);
   apply(command_, now);
 }
 
@@ -100,7 +116,15 @@ servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {
           .arm = observe_arm(devices_.arm.state()),
           .near_view = eyes_.near_view(),
           .low_view = eyes_.low_view(),
-          .device_error = first_error(devices_)};
+          .operator_switch = observe_switch(devices_.operator_switch.state()),
+          .device_error = first_error(devices_),
+          .safety_stop = safety_stop()};
+}
+
+std::optional<std::string> ThrowerLoop::safety_stop() const {
+  if (supervisor_.reason()) return supervisor_.reason();
+  if (supervisor_.state() == servo::Supervision::disarmed) return refusal_;
+  return std::nullopt;
 }
 
 // The width and the rough place are known since the near view; what the filter believes confines the search.

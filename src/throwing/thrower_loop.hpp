@@ -1,9 +1,12 @@
-// One control period of the thrower: devices to observation, controller, command to devices. It knows only the ports,
-// and is the same on the simulated rink and on steel.
+// One control period of the thrower: devices to observation, controller, supervisor, what it permits to devices. It
+// knows only the ports, and is the same on the simulated rink and on steel.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "servo/safety/supervisor.hpp"
 #include "servo/thrower.hpp"
 #include "src/throwing/thrower_devices.hpp"
 #include "src/throwing/thrower_eyes.hpp"
@@ -12,13 +15,18 @@ namespace hogline {
 
 class ThrowerLoop {
  public:
-  ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower);
+  ThrowerLoop(const ThrowerDevices& devices, ThrowerEyes eyes, servo::Thrower thrower, servo::Supervisor supervisor);
 
+  /// The operator's act, before the first step: without it nothing moves. Returns why it was refused; the first step
+  /// then aborts the throw for that reason.
+  std::optional<std::string> arm(Stamp now);
   /// `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
 
   const servo::Thrower& thrower() const { return thrower_; }
+  const servo::Supervisor& supervisor() const { return supervisor_; }
   const ThrowerEyes& eyes() const { return eyes_; }
+  /// What the devices were given.
   const servo::ThrowerCommand& command() const { return command_; }
   /// Every device error since the start, in the order of their coming, also those that came after the first.
   const std::vector<hw::DeviceError>& device_errors() const { return device_errors_; }
@@ -26,13 +34,16 @@ class ThrowerLoop {
  private:
   void note_errors();
   servo::ThrowerObservation observe(Stamp now) const;
+  std::optional<std::string> safety_stop() const;
   vision::LowViewPrediction low_view_hint() const;
   void apply(const servo::ThrowerCommand& command, Stamp now);
 
   ThrowerDevices devices_;
   ThrowerEyes eyes_;
   servo::Thrower thrower_;
-  servo::ThrowerCommand command_;
+  servo::Supervisor supervisor_;
+  servo::ThrowerCommand command_;  ///< as permitted
+  std::string refusal_ = "not armed";
   std::vector<hw::DeviceError> device_errors_;
   bool releasing_ = false;
 };

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <memory>
 
+#include "src/config/device_rig.hpp"
 #include "src/config/embedded.hpp"
-#include "src/config/thrower_rig.hpp"
 #include "src/doctor/drive_check.hpp"
 #include "src/doctor/report.hpp"
 #include "src/doctor/steel_site.hpp"
@@ -18,12 +18,12 @@ using namespace hogline::hil;
 
 namespace {
 
-config::ThrowerRig rig_on(const std::string& interface) {
+config::DeviceRig rig_on(const std::string& interface) {
   std::string text{config::embedded_file("rigs/practice.yaml")};
   const std::string from = "interface: can0";
   text.replace(text.find(from), from.size(), "interface: " + interface);
-  config::ThrowerRig rig = config::parse_thrower_rig(text, "rig.yaml");
-  rig.drive.timing.sdo_timeout = 2s;  // the foreign nodes are Python on a busy machine
+  config::DeviceRig rig = config::parse_device_rig(text, "rig.yaml");
+  rig.drive->timing.sdo_timeout = 2s;  // the foreign nodes are Python on a busy machine
   return rig;
 }
 
@@ -53,7 +53,7 @@ TEST(DoctorOnKernelCan, finds_foreign_drives_and_only_asks_them) {
       {HOGLINE_SOURCE_DIR "/tests/peers/canopen_node.py", "--channel", "vcan0", "--node", "1", "--node", "2"});
   ASSERT_TRUE(booted(listener));
 
-  config::ThrowerRig rig = rig_on("vcan0");
+  config::DeviceRig rig = rig_on("vcan0");
   std::vector<doctor::Finding> findings;
   std::vector<hw::StampedCanFrame> seen;
   {
@@ -86,9 +86,9 @@ TEST(DoctorOnKernelCan, says_which_node_is_not_the_rigs_and_which_is_missing) {
       {HOGLINE_SOURCE_DIR "/tests/peers/canopen_node.py", "--channel", "vcan0", "--node", "1", "--node", "2"});
   ASSERT_TRUE(booted(listener));
 
-  config::ThrowerRig rig = rig_on("vcan0");
-  rig.drive.left.vendor_id = 0x12345678;
-  rig.drive.right.node = 7;
+  config::DeviceRig rig = rig_on("vcan0");
+  rig.drive->left.vendor_id = 0x12345678;
+  rig.drive->right.node = 7;
   doctor::SteelSite site(rig);
   site.pass(50ms);
   const auto findings = doctor::examine_drives(rig.drive, std::nullopt, site);
@@ -97,7 +97,7 @@ TEST(DoctorOnKernelCan, says_which_node_is_not_the_rigs_and_which_is_missing) {
 }
 
 TEST(DoctorOnKernelCan, says_that_the_link_is_down_or_missing) {
-  const config::ThrowerRig rig = rig_on("nosuchcan0");
+  const config::DeviceRig rig = rig_on("nosuchcan0");
   doctor::SteelSite site(rig);
   const auto findings = doctor::examine_drives(rig.drive, std::nullopt, site);
   EXPECT_EQ(of(findings, "CAN bus").verdict(), doctor::Verdict::wrong);

@@ -1,21 +1,11 @@
 #include <array>
 
-#include "hw/canopen/bus_identifiers.hpp"
-#include "tests/hil/drive_program.hpp"
+#include "src/steel/robot_bus.hpp"
+#include "tests/hil/drive_config.hpp"
 
 namespace hogline::hil {
 
 using namespace std::chrono_literals;
-
-namespace {
-
-std::vector<hw::CanFilter> filters(const std::vector<std::uint32_t>& ids) {
-  std::vector<hw::CanFilter> result;
-  for (const std::uint32_t id : ids) result.push_back({id});
-  return result;
-}
-
-}  // namespace
 
 hw::TwoWheelDriveConfig patient_drive_config() {
   hw::WheelConfig wheel{.name = "left wheel", .node = 1, .vendor_id = 0x539, .product_code = 0x402, .direction = 1};
@@ -46,13 +36,10 @@ hw::TwoWheelDriveConfig patient_drive_config() {
   return config;
 }
 
-hw::SocketCanConfig robot_bus_config(std::string interface) {
-  const hw::BusIdentifiers ids = hw::bus_identifiers(std::array<std::uint8_t, 2>{1, 2}, 127);
-  return {.interface = std::move(interface),
-          .receive = filters(ids.heard),
-          .own = filters(ids.own),
-          .one_at_a_time = filters(ids.set_points),
-          .confirm_deadline = 2s};
+hw::SocketCanConfig wheels_bus_config(const std::string& interface) {
+  hw::SocketCanConfig config = robot_bus_config(interface, std::array<std::uint8_t, 2>{1, 2}, 127);
+  config.confirm_deadline = 2s;
+  return config;
 }
 
 }  // namespace hogline::hil

@@ -1,6 +1,6 @@
 // A program that drives both wheels of the foreign nodes for ever, and is killed by a test: drive_program INTERFACE.
 // It says "driving" on stdout when they turn; it ends with 1 if the drive has an error.
-#include "tests/hil/drive_program.hpp"
+#include "tests/hil/drive_config.hpp"
 
 #include <poll.h>
 
@@ -39,7 +39,7 @@ int main(int count, char** arguments) {
   TwoWheelDriveConfig config = hil::patient_drive_config();
   config.timing.command_age_limit = std::chrono::milliseconds{400};
   config.timing.rpdo_timeout = std::chrono::milliseconds{500};
-  SocketCanBus bus(hil::robot_bus_config(arguments[1]), std::chrono::steady_clock::now());
+  SocketCanBus bus(hil::wheels_bus_config(arguments[1]), std::chrono::steady_clock::now());
   TwoWheelDrive drive(bus, config);
   return drive_for_ever(bus, drive);
 }

@@ -40,7 +40,7 @@ ThrowerObservation Plant::observe() {
   o.wheels = WheelObservation{bus_stamp, left_radps_, right_radps_, !enabled_, enabled_};
   const double gyro_noise = settings_.gyro_noise_rad_per_sqrt_s / std::sqrt(seconds(period));
   o.gyro = GyroObservation{now_, truth_.yaw_rate_radps + settings_.gyro_bias_radps + noise(gyro_noise), true};
-  o.gripper = GripperObservation{bus_stamp, !jaws_opened(), jaws_opened(), spin_radps_, {}};
+  o.gripper = GripperObservation{bus_stamp, !jaws_opened(), jaws_opened(), spin_radps_, {}, {}};
   if (jaws_opened()) o.gripper->opening_since = release_stamp_;
   o.arm = ArmObservation{bus_stamp, arm_up_ <= 0.0, arm_up_ >= 1.0};
   o.near_view = near_view_;
@@ -131,7 +131,8 @@ void Plant::move(double dt_s) {
   const double radius = config_.base.wheel_radius_m * (1.0 + settings_.radius_error);
   const double left = radius * (1.0 - settings_.radius_difference / 2.0) * left_radps_;
   const double right = radius * (1.0 + settings_.radius_difference / 2.0) * right_radps_;
-  truth_.speed_mps = (left + right) / 2.0;
+  const double pull = settings_.grip_mps2 * dt_s;
+  truth_.speed_mps += std::clamp((left + right) / 2.0 - truth_.speed_mps, -pull, pull);
   const double keep = std::exp(-dt_s / disturbance_time_s);
   wander_ = keep * wander_ + noise(std::sqrt(1.0 - keep * keep));
   truth_.yaw_rate_radps =

@@ -37,6 +37,7 @@ struct PlantSettings {
   double visible_from_m = 6.5;  ///< hog distances the low view sees the line at
   double visible_to_m = 0.68;
   double gripper_delay_s = 0.075;
+  double grip_mps2 = 100.0;  ///< the body gains and loses speed no faster than this; beyond it the wheels spin
 };
 
 struct PlantTruth {

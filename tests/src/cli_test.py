@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import re
 import subprocess
 import sys
 import tempfile
@@ -44,15 +45,6 @@ class WrongUse(unittest.TestCase):
 
     def test_a_missing_picture(self):
         self.refuses(run("pose", "--rig", RIG, "--camera", "near", "nowhere.jpg"), "nowhere.jpg", "no such picture")
-
-    def test_a_text_file_named_jpg(self):
-        path = self.file("note.jpg", b"this is no picture\n" * 50)
-        self.refuses(run("pose", "--rig", RIG, "--camera", "near", path), "note.jpg")
-
-    def test_a_truncated_picture(self):
-        with open(SCENE, "rb") as f:
-            path = self.file("half.jpg", f.read()[:300000])
-        self.refuses(run("pose", "--rig", RIG, "--camera", "near", path), "half.jpg")
 
     def test_a_missing_rig(self):
         self.refuses(run("pose", "--rig", "nowhere.yaml", "--camera", "near", SCENE), "nowhere.yaml", "no such file")
@@ -96,6 +88,33 @@ class WrongUse(unittest.TestCase):
             text = f.read().replace("source: {simulated: {},", "source: {video: {path: run.mp4},", 1)
         self.refuses(run("doctor", "--rig", self.file("rig.yaml", text.encode())), "can.interface", "missing")
 
+    def part(self, *sections, edits=()):
+        """A rig with these of the practice rig's sections alone."""
+        with open(RIG, encoding="utf-8") as f:
+            parts = re.split(r"(?m)^(?=[a-z]+:)", f.read())
+        text = "".join(p for p in parts if p.split(":")[0] in ("cameras", "sheet", "ice", "stone", *sections))
+        for old, new in edits:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        return self.file("part.yaml", text.encode())
+
+    def test_a_doctor_examines_what_a_rig_declares(self):
+        for sections, devices in (((), ["near camera", "low camera"]), (("can",), ["CAN bus"]),
+                                  (("can", "head"), ["CAN bus", "pan", "tilt"]), (("gyro",), ["gyro"])):
+            edits = [("interface: can0", "interface: nosuchcan0")] if "can" in sections else []
+            result = run("doctor", "--json", "--rig", self.part(*sections, edits=edits))
+            found = [d["device"] for d in json.loads(result.stdout)["devices"]]
+            self.assertEqual(found[:len(devices)], devices)
+            self.assertEqual(len(found), len(devices) if not sections else len(devices) + 2)
+            self.assertEqual(result.returncode, 1 if sections else 0, result.stdout)
+
+    def test_a_gripper_without_a_line(self):
+        self.refuses(run("doctor", "--rig", self.part("gripper")), "modbus", "missing", "gripper")
+
+    def test_a_mistyped_subcommand(self):
+        self.refuses(run("dcotor", "--rig", RIG), "dcotor", "did you mean doctor?", "pose", "faults")
+        self.refuses(run("xylophone"), "xylophone", "throw")
+
     def test_no_subcommand(self):
         self.assertEqual(run().returncode, 2)
 
@@ -138,6 +157,22 @@ class Pose(unittest.TestCase):
         line = json.loads(result.stdout)
         self.assertFalse(line["ok"])
         self.assertTrue(line["reason"])
+
+    def test_a_picture_that_can_not_be_read_does_not_end_the_others(self):
+        with tempfile.TemporaryDirectory() as folder:
+            half = os.path.join(folder, "half.jpg")
+            note = os.path.join(folder, "note.jpg")
+            with open(SCENE, "rb") as f, open(half, "wb") as g:
+                g.write(f.read()[:300000])
+            with open(note, "wb") as f:
+                f.write(b"this is no picture\n" * 50)
+            for command in (("pose", "--camera", "near"), ("pose", "--camera", "near", "--sequence"), ("stones",)):
+                result = run(*command, "--rig", RIG, SCENE, half, note, SCENE)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                lines = [json.loads(line) for line in result.stdout.splitlines()]
+                self.assertEqual([line["ok"] for line in lines], [True, False, False, True])
+                self.assertIn("ends early", lines[1]["reason"])
+                self.assertIn("neither a JPEG nor a PNG", lines[2]["reason"])
 
     def test_a_stamps_file_gives_a_sequence_its_pictures(self):
         low = os.path.join(SOURCE, "tests/data/low")

@@ -8,7 +8,9 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double slope_sigma_rad = 0.004;   // of a line candidate on the ice
+constexpr double slope_sigma_rad = 0.004;  // of a line candidate on the ice
+constexpr double hog_row_sigma_px = 0.35;  // one end against the other; far off a row is a tenth of a metre
+constexpr double hog_arm_m = 1.5;
 constexpr double missing_sideline_m = 0.5;  // costs as much as so wide a gap
 constexpr double missing_centre_m = 0.5;
 constexpr double hidden_hog_m = 1.5;      // times the share of it that was not seen
@@ -49,13 +51,16 @@ class Judge {
       : hog_(hog), known_(known), view_(view), height_m_(view.gMc().translation().z()) {
     // A lean scales the ice far ahead.
     scale_sigma_ = lean_sigma_rad * hog.distance_m / height_m_;
+    const double ahead_m = hog.distance_m - view.gMc().translation().y();
+    const double m_per_row = ahead_m * ahead_m / (view.setup().intrinsics.fy_px * height_m_);
+    hog_yaw_sigma_ = std::hypot(slope_sigma_rad, hog_row_sigma_px * m_per_row / hog_arm_m);
   }
 
   std::vector<Intercept> intercepts(const std::vector<ClassifiedLine>& down_ice) const {
     std::vector<Intercept> found;
     for (const ClassifiedLine& line : down_ice) {
       // Lines to the left and right lean towards each other or apart with the camera.
-      const double tolerance = 0.012 + 3.0 * lean_sigma_rad / height_m_ * std::abs(line.intercept_m);
+      const double tolerance = 3.0 * hog_yaw_sigma_ + 3.0 * lean_sigma_rad / height_m_ * std::abs(line.intercept_m);
       if (std::abs(line.slope_rad + hog_.yaw_rad) > tolerance) continue;
       constexpr double step_rad = 1e-4;
       const GroundLine g = ground_line(line, 1.0, 4.0);
@@ -143,8 +148,7 @@ class Judge {
   // squares over the slopes, then the body from where the hog line lies with that lean.
   void level(const Intercept* left, const Intercept* right, const Intercept* centre, HShape& h) const {
     const double w = 1.0 / (slope_sigma_rad * slope_sigma_rad);
-    const double hog_sigma = slope_sigma_rad * (1.0 + hog_.distance_m / 4.0);
-    const double hog_w = 1.0 / (hog_sigma * hog_sigma);
+    const double hog_w = 1.0 / (hog_yaw_sigma_ * hog_yaw_sigma_);
     double a = hog_w, b = 0.0, c = 1.0 / (lean_sigma_rad * lean_sigma_rad), p = hog_w * hog_.yaw_rad, q = 0.0;
     for (const Intercept* i : {left, right, centre}) {
       if (i == nullptr) continue;
@@ -157,8 +161,13 @@ class Judge {
     }
     const double det = a * c - b * b;
     h.lean_rad = (a * q - b * p) / det;
-    h.centre_x_m = -h.body.x_m;
-    h.body = body_before(hog_, h.centre_x_m, h.lean_rad, view_);
+    h.centre_at.x_m = -h.body.x_m;
+    if (centre != nullptr) {
+      const double near_by_m = view_.gMc().translation().y() + 0.5;
+      const GroundLine line = ground_line(*centre->line, near_by_m, near_by_m + 2.5);
+      h.centre_at.seen = {line.a, line.b};
+    }
+    h.body = body_before(hog_, h.centre_at, h.lean_rad, view_);
   }
 
   bool expected(const PlanarPose& body) const {
@@ -174,6 +183,7 @@ class Judge {
   const GroundView& view_;
   double height_m_;
   double scale_sigma_ = 0.0;
+  double hog_yaw_sigma_ = 0.0;
 };
 
 std::optional<HShape> best_about(const CrossCandidate& hog, const std::vector<ClassifiedLine>& down_ice,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/detect/h_level.hpp"
 #include "vision/detect/h_lines.hpp"
 #include "vision/detect/line_classes.hpp"
 
@@ -17,10 +18,10 @@ struct HShape {
   std::optional<ClassifiedLine> left;
   std::optional<ClassifiedLine> right;
   std::optional<ClassifiedLine> centre;
-  double error_m = 0.0;     ///< the three terms, in metres; what is missing costs
-  double centre_x_m = 0.0;  ///< where the centre line meets the hog line, to the right of the foot of b's perpendicular
-  PlanarPose body;          ///< from the intercepts
-  double lean_rad = 0.0;    ///< how much more the camera looks down than its mount says, from the down-ice lines
+  double error_m = 0.0;  ///< the three terms, in metres; what is missing costs
+  CentreLine centre_at;
+  PlanarPose body;                ///< from the intercepts
+  double lean_rad = 0.0;          ///< how much more the camera looks down than its mount says, from the down-ice lines
   std::optional<double> width_m;  ///< from the intercepts, where sidelines were seen
 };
 

@@ -19,6 +19,13 @@ constexpr double parallel_cosine = 0.97;
 constexpr int fewest_points = 40;
 constexpr std::size_t most_voters = 2500;
 
+// A hog line far off is a pixel high: by how much its distance errs, the rings seem to lie nearer or farther.
+constexpr double hog_row_sigma_px = 0.7;
+constexpr double shift_bin_m = 0.01;
+constexpr int shift_bins = 25;             // to either side
+constexpr double least_ring_height = 0.3;  // of the radius: at the rings' sides a shift along y is not seen
+constexpr int fewest_ring_points = 15;
+
 /// An edge point that may lie on a sideline or on a ring, in e's axes about the body but not yet moved there.
 struct Voter {
   Eigen::Vector2d ground;
@@ -29,15 +36,21 @@ struct Voter {
 struct Score {
   double sideline = 0.0;
   double ring = 0.0;
+  double shift_m = 0.0;  ///< along e's y, with which most points lie on rings
   double width_m = 0.0;
   double sum() const { return sideline + ring; }
 };
 
 class Poll {
  public:
-  Poll(const std::vector<EdgePoint>& points, const GroundView& view) : view_(view) {
+  Poll(const std::vector<EdgePoint>& points, double hog_distance_m, const GroundView& view) : view_(view) {
     const Eigen::Vector3d camera = view.gMc().translation();
     const double fh = view.setup().intrinsics.fy_px * camera.z();
+    const double hog_sigma_m = 0.005 + hog_row_sigma_px * std::pow(hog_distance_m - camera.y(), 2) / fh;
+    for (int i = -shift_bins; i <= shift_bins; ++i) {
+      const double off = i * shift_bin_m / hog_sigma_m;
+      shift_prior_[static_cast<std::size_t>(i + shift_bins)] = std::exp(-0.5 * off * off);
+    }
     stride_ = 1 + points.size() / most_voters;
     for (std::size_t i = 0; i < points.size(); i += stride_) {
       const EdgePoint& p = points[i];
@@ -48,7 +61,8 @@ class Poll {
   }
 
   Score score(const PlanarPose& body, double lean_rad) {
-    std::fill(histogram_.begin(), histogram_.end(), 0.0);
+    histogram_.fill(0.0);
+    shifts_.fill(0.0);
     Score s;
     const double c = std::cos(body.yaw_rad);
     const double n = std::sin(body.yaw_rad);
@@ -59,7 +73,7 @@ class Poll {
       const Eigen::Vector2d lighter(c * v.lighter.x() - n * v.lighter.y(), n * v.lighter.x() + c * v.lighter.y());
       const double radius = e.norm();
       if (radius < rules::outer_ring_radius_m + 0.2 && std::abs(e.dot(lighter)) > parallel_cosine * radius) {
-        s.ring += on_ring(radius, 0.008 + 1.2 / v.px_per_m_ahead);
+        vote_on_rings(e, 0.008 + 1.2 / v.px_per_m_ahead);
       }
       if (lighter.x() * e.x() > -0.9 * std::abs(e.x())) continue;  // a sideline's inner edge is lighter inside
       const double ahead = std::max(0.2, g.y() - foot);
@@ -67,6 +81,7 @@ class Poll {
     }
     s.sideline = *std::max_element(histogram_.begin(), histogram_.end());
     s.width_m = innermost_width(s.sideline);
+    choose_shift(s);
     s.sideline *= static_cast<double>(stride_);
     s.ring *= static_cast<double>(stride_);
     return s;
@@ -84,12 +99,28 @@ class Poll {
     return 2.0 * (first_m + (static_cast<double>(peak) + 0.5) * bin_m);
   }
 
-  static double on_ring(double radius, double tolerance) {
-    double best = 0.0;
+  // By which shift along y the point would lie on a ring.
+  void vote_on_rings(const Eigen::Vector2d& e, double tolerance) {
     for (const double r : {rules::outer_ring_radius_m, rules::middle_ring_radius_m, rules::inner_ring_radius_m}) {
-      best = std::max(best, 1.0 - std::abs(radius - r) / tolerance);
+      const double height2 = r * r - e.x() * e.x();
+      if (height2 < least_ring_height * least_ring_height * r * r) continue;
+      const double shift = std::copysign(std::sqrt(height2), e.y()) - e.y();
+      const int begin = std::max(-shift_bins, static_cast<int>(std::ceil((shift - tolerance) / shift_bin_m)));
+      const int end = std::min(shift_bins, static_cast<int>(std::floor((shift + tolerance) / shift_bin_m)));
+      for (int i = begin; i <= end; ++i) {
+        shifts_[static_cast<std::size_t>(i + shift_bins)] += 1.0 - std::abs(i * shift_bin_m - shift) / tolerance;
+      }
     }
-    return best;
+  }
+
+  void choose_shift(Score& s) const {
+    for (int i = -shift_bins; i <= shift_bins; ++i) {
+      const auto k = static_cast<std::size_t>(i + shift_bins);
+      const double votes = shifts_[k] * shift_prior_[k];
+      if (votes <= s.ring) continue;
+      s.ring = votes;
+      s.shift_m = i * shift_bin_m;
+    }
   }
 
   void vote(double x, double tolerance) {
@@ -105,6 +136,8 @@ class Poll {
   std::vector<Voter> voters_;
   std::size_t stride_ = 1;  ///< of the points, one votes for so many
   std::array<double, bins> histogram_{};
+  std::array<double, 2 * shift_bins + 1> shifts_{};       ///< of the rings
+  std::array<double, 2 * shift_bins + 1> shift_prior_{};  ///< by how well the hog line's distance is known
 };
 
 }  // namespace
@@ -119,26 +152,33 @@ Eigen::Vector2d leaned(const Eigen::Vector2d& ground, double lean_rad, const Gro
   return camera.head<2>() + camera.z() / down * Eigen::Vector2d(d.x(), d.y() * c - camera.z() * s);
 }
 
-PlanarPose body_before(const CrossCandidate& hog, double centre_x_m, double lean_rad, const GroundView& view) {
+PlanarPose body_before(const CrossCandidate& hog, const CentreLine& centre, double lean_rad, const GroundView& view) {
   const Eigen::Vector2d along(std::cos(hog.yaw_rad), -std::sin(hog.yaw_rad));
   const Eigen::Vector2d foot = hog.distance_m * hog.normal();
-  const Eigen::Vector2d a = leaned(foot - along, lean_rad, view);
-  const Eigen::Vector2d b = leaned(foot + along, lean_rad, view);
-  const Eigen::Vector2d direction = (b - a).normalized();
-  const Eigen::Vector2d normal(-direction.y(), direction.x());
-  const Eigen::Vector2d centre = leaned(foot + centre_x_m * along, lean_rad, view);
-  return {.x_m = -direction.dot(centre),
-          .y_m = rules::tee_to_hog_m + 0.5 * rules::hog_line_width_m - normal.dot(a),
-          .yaw_rad = std::atan2(-direction.y(), direction.x())};
+  const Eigen::Vector2d crossing = leaned(foot + centre.x_m * along, lean_rad, view);
+  // Far off the hog line is a few rows high and tells little of its direction; the centre line runs for metres.
+  Eigen::Vector2d down_ice;
+  if (centre.seen) {
+    const auto& [near_by, far_off] = *centre.seen;
+    down_ice = (leaned(far_off, lean_rad, view) - leaned(near_by, lean_rad, view)).normalized();
+  } else {
+    const Eigen::Vector2d a = leaned(foot - along, lean_rad, view);
+    const Eigen::Vector2d b = leaned(foot + along, lean_rad, view);
+    const Eigen::Vector2d across = (b - a).normalized();
+    down_ice = {-across.y(), across.x()};
+  }
+  return {.x_m = -(down_ice.y() * crossing.x() - down_ice.x() * crossing.y()),
+          .y_m = rules::tee_to_hog_m + 0.5 * rules::hog_line_width_m - down_ice.dot(crossing),
+          .yaw_rad = std::atan2(down_ice.x(), down_ice.y())};
 }
 
 std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, const CrossCandidate& hog,
-                                      double centre_x_m, const GroundView& view) {
-  Poll poll(points, view);
+                                      const CentreLine& centre, const GroundView& view) {
+  Poll poll(points, hog.distance_m, view);
   std::array<Score, 2 * lean_steps + 1> scores{};
   for (int i = 0; i < static_cast<int>(scores.size()); ++i) {
     const double lean = (i - lean_steps) * lean_step_rad;
-    scores[static_cast<std::size_t>(i)] = poll.score(body_before(hog, centre_x_m, lean, view), lean);
+    scores[static_cast<std::size_t>(i)] = poll.score(body_before(hog, centre, lean, view), lean);
   }
   std::array<double, 2 * lean_steps + 1> votes{};
   for (std::size_t i = 1; i + 1 < scores.size(); ++i) {
@@ -156,7 +196,8 @@ std::optional<LeanVote> vote_for_lean(const std::vector<EdgePoint>& points, cons
                   .sigma_rad = lean_step_rad * (0.5 + 0.5 * static_cast<double>(high)),
                   .sideline_points = static_cast<int>(scores[best].sideline),
                   .width_m = scores[best].width_m,
-                  .ring_points = static_cast<int>(scores[best].ring)};
+                  .ring_points = static_cast<int>(scores[best].ring),
+                  .ring_shift_m = scores[best].ring < fewest_ring_points ? 0.0 : scores[best].shift_m};
 }
 
 }  // namespace hogline::vision

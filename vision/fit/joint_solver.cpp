@@ -214,7 +214,7 @@ void step_closely(const std::vector<PlannedSite>& sites, const std::vector<SiteM
 ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const CloseStep& step, const Prior& prior,
                               double shared_px) {
   const ParameterMatrix inverse = step.information.ldlt().solve(ParameterMatrix::Identity());
-  ParameterMatrix scatter = prior.information;
+  ParameterMatrix scatter = ParameterMatrix::Zero();
   ParameterVector stretch_pull = ParameterVector::Zero();
   ParameterVector feature_pull = ParameterVector::Zero();
   int stretches = 0;
@@ -235,9 +235,10 @@ ParameterMatrix covariance_of(const std::vector<PlannedSite>& sites, const Close
       feature_pull.setZero();
     }
   }
-  const double lost =
-      stretches > parameter::count ? static_cast<double>(stretches) / (stretches - parameter::count) : 4.0;
-  ParameterMatrix covariance = lost * inverse * scatter * inverse;
+  // As many stretches are used up as parameters are told by what was seen, not by the prior.
+  const double told = parameter::count - (inverse * prior.information).trace();
+  const double lost = stretches > 1.33 * told ? stretches / (stretches - told) : 4.0;
+  ParameterMatrix covariance = inverse * (lost * scatter + prior.information) * inverse;
   // Never surer than independent sites would make it.
   for (int k = 0; k < parameter::count; ++k) {
     const double least = inverse(k, k) / std::max(covariance(k, k), 1e-30);

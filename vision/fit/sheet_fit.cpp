@@ -89,12 +89,22 @@ void SheetFit::Impl::begin(const SheetFitStart& start) {
   }
 }
 
+// Of the camera against its mount; positive looks down more.
+double SheetFit::Impl::pitch() const {
+  const Eigen::Matrix3d eRb = state.eMc.linear() * bRc.transpose();
+  return std::atan2(-eRb(2, 0), std::hypot(eRb(2, 1), eRb(2, 2)));
+}
+
+double SheetFit::Impl::pitch_sigma() const {
+  const Eigen::RowVector3d axis = bRc.row(1);
+  return std::sqrt(std::max(0.0, axis.dot(covariance.block<3, 3>(3, 3) * axis.transpose())));
+}
+
 // What is known beforehand, about the present state.
 Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
   Prior p;
   const Eigen::Matrix3d eRb = state.eMc.linear() * bRc.transpose();
   const double roll = std::atan2(eRb(2, 1), eRb(2, 2));
-  const double pitch = std::atan2(-eRb(2, 0), std::hypot(eRb(2, 1), eRb(2, 2)));
   ParameterRow row = ParameterRow::Zero();
   const auto turn_about = [&](int axis) {
     row.setZero();
@@ -102,7 +112,7 @@ Prior SheetFit::Impl::prior(const SheetFitStart& start) const {
     return row;
   };
   if (start.roll_sigma_rad > 0.0) p.add(turn_about(0), -roll, start.roll_sigma_rad);
-  if (start.pitch_sigma_rad > 0.0) p.add(turn_about(1), start.pitch_offset_rad - pitch, start.pitch_sigma_rad);
+  if (start.pitch_sigma_rad > 0.0) p.add(turn_about(1), start.pitch_offset_rad - pitch(), start.pitch_sigma_rad);
   if (start.height_sigma_m > 0.0) {
     row.setZero();
     row.segment<3>(0) = state.eMc.linear().row(2);

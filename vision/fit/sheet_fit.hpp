@@ -59,6 +59,11 @@ struct SheetFitResult {
   double sheet_width_sigma_m = 0.0;
   double paint_depth_m = 0.0;  ///< as given, or as estimated
   double residual_px = 0.0;
+  /// By how far all edges lie towards the darker side, as the residuals tell, and what that would move the body along
+  /// y. About zero where the response curve is right; paint's edges wander with a wrong gamma.
+  double bleed_px = 0.0;
+  double bleed_sigma_px = 0.0;
+  double bleed_y_m = 0.0;
   int sites_tried = 0;
   int sites_used = 0;
   int sites_hidden = 0;  ///< of those tried: somebody or something stands before them

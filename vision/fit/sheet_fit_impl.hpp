@@ -34,6 +34,8 @@ struct SheetFit::Impl {
   SheetCamera camera() const { return {lens, state.eMc, Ice{state.paint_depth_m, setup.ice.refractive_index}}; }
   void clear_result();
   void begin(const SheetFitStart& start);
+  double pitch() const;
+  double pitch_sigma() const;
   Prior prior(const SheetFitStart& start) const;
   void plan(const SheetFitStart& start, double spacing_px);
   bool arrive(const PictureLight& light, const SheetFitStart& start);
@@ -51,6 +53,7 @@ struct SheetFit::Impl {
   Eigen::Matrix<double, 3, 6> body_by_twist() const;
   void judge(const SheetFitStart& start);
   void report_width();
+  void report_bleed();
   void find_hidden();
   void report_sites();
   std::string refusal(const SheetFitStart& start) const;

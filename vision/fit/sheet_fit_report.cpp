@@ -30,6 +30,9 @@ constexpr double hidden_share = 0.15;
 constexpr double most_residual_half_hidden_px = 0.6;
 constexpr int least_sites_half_hidden = 150;
 
+constexpr double unknown_bleed_px = 1.0;
+constexpr double bleed_inflation = 1.5;  // neighbouring sites share their errors
+
 }  // namespace
 
 void SheetFit::Impl::find_hidden() {
@@ -72,6 +75,30 @@ void SheetFit::Impl::report_width() {
                           2.0 * covariance(parameter::left_edge, parameter::right_edge);
   const double feet_m = setup.sheet.sideline == SidelineKind::line ? 0.0 : foot_sigma_m;
   result.sheet_width_sigma_m = std::hypot(std::sqrt(std::max(variance, 0.0)), feet_m);
+}
+
+// One more parameter beside the fit's, solved for afterwards: edges moved towards their darker side by the same length.
+void SheetFit::Impl::report_bleed() {
+  result.bleed_px = result.bleed_y_m = 0.0;
+  result.bleed_sigma_px = unknown_bleed_px;
+  ParameterVector by_parameters = ParameterVector::Zero();
+  double own = 0.0;
+  double pull = 0.0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (!sites[i].step || step.weight[i] <= 0.0) continue;
+    const double lighter = std::copysign(1.0, Eigen::Map<const Eigen::Vector3f>(found[i].colour.data()).sum());
+    const double spread = step.scale * step.spread_px[i];
+    const double w = step.weight[i] / (spread * spread);
+    by_parameters -= w * lighter * sites[i].along.transpose();
+    own += w;
+    pull -= w * lighter * step.residual_px[i];
+  }
+  const ParameterVector turned = step.information.ldlt().solve(by_parameters);
+  const double told = own - by_parameters.dot(turned);
+  if (!(told > 1.0 / (unknown_bleed_px * unknown_bleed_px))) return;
+  result.bleed_px = pull / told;
+  result.bleed_sigma_px = std::hypot(shared_error_px, bleed_inflation / std::sqrt(told));
+  result.bleed_y_m = -body_by_twist().row(1).dot(turned.head<6>()) * result.bleed_px;
 }
 
 void SheetFit::Impl::report_sites() {
@@ -134,6 +161,7 @@ void SheetFit::Impl::judge(const SheetFitStart& start) {
                   std::hypot(std::sqrt(planar(1, 1)), painted_sigma_m), std::sqrt(planar(2, 2))};
   result.hog_distance_sigma_m = result.sigma.y_m;
   report_width();
+  report_bleed();
   find_hidden();
   report_sites();
 

@@ -27,20 +27,28 @@ constexpr double most_innovation = 6.0;  // of six numbers together: a chance of
 constexpr std::array<double, 2> least_share{0.4, 0.5};
 constexpr int least_lines = 15;
 
+constexpr double still_px = 0.05;          // noise moves the fit by as much
+constexpr double pitch_by_movement = 2.0;  // a pitch moves lines across by its own angle, others by less
+
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 }  // namespace
 
 struct SheetTrack::Impl {
-  explicit Impl(const CameraSetup& setup)
-      : fit(setup), choice(wanted_places, most_places), cameras(fit.lens, bMc(setup.mount), setup.ice) {
+  Impl(const CameraSetup& setup, const ChoiceWishes& wishes)
+      : fit(setup), choice(wanted_places, most_places, wishes), cameras(fit.lens, bMc(setup.mount), setup.ice) {
     moved.reserve(most_places);
   }
 
   const SheetFitResult& begin(const cv::Mat& image, const SheetFitStart& given);
+  const SheetFitResult& take_over(const SheetFit::Impl& fitted, const SheetFitStart& given);
   const SheetFitResult& follow(const cv::Mat& image, const SheetPrediction& prediction);
 
+  void begin_tracking();
+  void expect_pitch(const PitchMemory& memory, double change_rad);
+  bool recall_pitch(const PitchMemory& memory);
+  void report_pitch();
   bool arrived() const;
   bool fit_frame(const PictureLight& light, const SheetPrediction& prediction);
   void plan();
@@ -54,6 +62,7 @@ struct SheetTrack::Impl {
   MovingEdges edges;
   SiteCameras cameras;
   SheetFitStart start;  // what holds from frame to frame
+  double start_pitch_sigma_rad = 0.0;
   std::vector<SiteMeasurement> moved;
   std::array<std::array<float, 3>, paint_feature_count> colours{};
   FitState last;  // that was believed
@@ -63,16 +72,35 @@ struct SheetTrack::Impl {
 
 const SheetFitResult& SheetTrack::Impl::begin(const cv::Mat& image, const SheetFitStart& given) {
   start = given;
-  const SheetFitResult& result = fit.fit(image, start);
-  lost = !result.ok;
-  if (lost) return result;
+  fit.fit(image, start);
+  begin_tracking();
+  return fit.result;
+}
+
+const SheetFitResult& SheetTrack::Impl::take_over(const SheetFit::Impl& fitted, const SheetFitStart& given) {
+  start = given;
+  fit.state = fitted.state;
+  fit.covariance = fitted.covariance;
+  fit.sites = fitted.sites;
+  fit.found = fitted.found;
+  fit.step = fitted.step;
+  fit.result = fitted.result;
+  begin_tracking();
+  return fit.result;
+}
+
+void SheetTrack::Impl::begin_tracking() {
+  diagnosis = {};
+  lost = !fit.result.ok;
+  if (lost) return;
+  start_pitch_sigma_rad = start.pitch_sigma_rad;
   BodyByParameters body = BodyByParameters::Zero();
   body.leftCols<6>() = fit.body_by_twist();
   choice.judge_by(fit.covariance, body);
   for (auto& colour : colours) colour = {1.0F, 1.0F, 1.0F};
   remember();
+  report_pitch();
   choice.choose_all(fit.camera(), fit.state, fit.sites);
-  return result;
 }
 
 const SheetFitResult& SheetTrack::Impl::follow(const cv::Mat& image, const SheetPrediction& prediction) {
@@ -83,12 +111,14 @@ const SheetFitResult& SheetTrack::Impl::follow(const cv::Mat& image, const Sheet
   if (!prediction.covariance.allFinite() || !prediction.travel.allFinite()) return fit.refuse("no usable prediction");
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, fit.response};
 
+  if (prediction.pitch) expect_pitch(*prediction.pitch, prediction.pitch->most_change_rad);
   fit.state = last;
   fit.state.eMc = prediction.eMc;
   plan();
   lost = true;
   if (!fit_frame(light, prediction)) return fit.refuse("the fit ran away");
   fit.judge(start);
+  report_pitch();
   if (!fit.result.ok) return fit.result;
   if (std::string why = doubt(prediction); !why.empty()) return fit.refuse(std::move(why));
   remember();
@@ -104,10 +134,47 @@ bool SheetTrack::Impl::fit_frame(const PictureLight& light, const SheetPredictio
     fit.look(light, close_look_px, half_breadth);
     fit.drop_odd_colours();
     step_closely(fit.sites, fit.found, fit.prior(start), fit.step, fit.scratch);
+    if (prediction.pitch && recall_pitch(*prediction.pitch)) {
+      step_closely(fit.sites, fit.found, fit.prior(start), fit.step, fit.scratch);
+    }
     if (!fit.move_by(fit.step.change)) return false;
     if (arrived()) break;
   }
   return true;
+}
+
+// What is left of the memory after a change of pitch (one standard deviation) since: its own error and the change's,
+// and in the long run no more than the mount tells.
+void SheetTrack::Impl::expect_pitch(const PitchMemory& memory, double change_rad) {
+  const double at_rest = start_pitch_sigma_rad * start_pitch_sigma_rad;
+  const double change = std::min(change_rad * change_rad, at_rest);
+  const double kept = at_rest > 0.0 ? 1.0 - change / at_rest : 1.0;
+  start.pitch_offset_rad = std::sqrt(kept) * memory.offset_rad;
+  start.pitch_sigma_rad = std::sqrt(kept * memory.sigma_rad * memory.sigma_rad + change);
+}
+
+// How far the picture has moved since says how much the pitch can have changed. True: the prior is the tighter for it.
+bool SheetTrack::Impl::recall_pitch(const PitchMemory& memory) {
+  const Twist off = log(memory.eMc.inverse() * fit.state.eMc);
+  ParameterVector moved_since = ParameterVector::Zero();
+  moved_since << off.linear, off.angular, Eigen::Matrix<double, parameter::count - 6, 1>::Zero();
+  moved_since.head<6>() += fit.step.change.head<6>();
+  double square = 0.0;
+  for (const PlannedSite& site : fit.sites) {
+    const double moved_px = site.along.head<6>().dot(moved_since.head<6>());
+    square += moved_px * moved_px;
+  }
+  diagnosis.moved_px = std::sqrt(square / std::max<double>(1.0, static_cast<double>(fit.sites.size())));
+  const double before = start.pitch_sigma_rad;
+  const double change_rad =
+      pitch_by_movement * std::max(0.0, diagnosis.moved_px - still_px) / fit.setup.intrinsics.fy_px;
+  expect_pitch(memory, std::min(change_rad, memory.most_change_rad));
+  return start.pitch_sigma_rad < 0.8 * before;
+}
+
+void SheetTrack::Impl::report_pitch() {
+  diagnosis.pitch_offset_rad = fit.pitch();
+  diagnosis.pitch_sigma_rad = fit.pitch_sigma();
 }
 
 // No place moved so far that others may have been beyond the close look's end, or the view bent.
@@ -179,6 +246,7 @@ void SheetTrack::Impl::remember() {
   sum.fill(Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < fit.sites.size(); ++i) {
     PlannedSite& site = fit.sites[i];
+    site.borne_out = fit.step.weight[i] > 0.0 ? 1 : -1;
     if (fit.step.weight[i] <= 0.0) {
       site.seen_contrast = 0.0;  // of something else
       continue;
@@ -217,13 +285,18 @@ std::string SheetTrack::Impl::doubt(const SheetPrediction& prediction) {
   return {};
 }
 
-SheetTrack::SheetTrack(const CameraSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
+SheetTrack::SheetTrack(const CameraSetup& setup, const ChoiceWishes& wishes)
+    : impl_(std::make_unique<Impl>(setup, wishes)) {}
 SheetTrack::~SheetTrack() = default;
 SheetTrack::SheetTrack(SheetTrack&&) noexcept = default;
 SheetTrack& SheetTrack::operator=(SheetTrack&&) noexcept = default;
 
 const SheetFitResult& SheetTrack::begin(const cv::Mat& image, const SheetFitStart& start) {
   return impl_->begin(image, start);
+}
+
+const SheetFitResult& SheetTrack::begin(const SheetFit& fitted, const SheetFitStart& start) {
+  return impl_->take_over(*fitted.impl_, start);
 }
 
 const SheetFitResult& SheetTrack::follow(const cv::Mat& image, const SheetPrediction& prediction) {

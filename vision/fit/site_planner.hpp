@@ -28,6 +28,7 @@ struct PlannedSite {
   double after_px = 0.0;       ///< ... and after the (second) one
   double seen_blur_px = 0.0;   ///< when it was measured last; 0: never
   double seen_contrast = 0.0;  ///< when moving edges saw it last, see MovingEdge; 0: never
+  int borne_out = 0;           ///< when it was looked for last: 1 the fit rested on it, -1 not; 0: never looked for
 };
 
 struct SitePlan {

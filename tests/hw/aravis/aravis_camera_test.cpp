@@ -7,13 +7,12 @@
 #include <thread>
 
 #include "tests/hw/aravis/scripted_source.hpp"
+#include "tests/hw/eventually.hpp"
 
 namespace hogline::hw {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr Duration patience = 20s;  // for what must happen; nothing waits that long when it does
 
 // Counts frames as fast as they are taken, and can stop or hang.
 class EndlessSource final : public FrameSource {
@@ -48,16 +47,6 @@ class EndlessSource final : public FrameSource {
   CameraIdentity identity_;
   std::vector<std::uint8_t> bytes_;
 };
-
-template <typename Condition>
-bool comes_true(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
 
 struct Bench {
   static AravisConfig config() {

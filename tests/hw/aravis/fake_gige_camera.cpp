@@ -10,7 +10,8 @@
 #include <chrono>
 #include <csignal>
 #include <stdexcept>
-#include <thread>
+
+#include "tests/hw/eventually.hpp"
 
 #if defined(__SANITIZE_THREAD__)
 // Debian's libaravis and libglib are built without ThreadSanitizer: it sees them write into buffers, but not the locks
@@ -28,7 +29,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint16_t control_port = 3956;  // GVCP
-constexpr auto patience = 60s;
 
 bool port_taken() {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -39,16 +39,6 @@ bool port_taken() {
   const bool taken = bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0;
   close(fd);
   return taken;
-}
-
-template <typename Condition>
-bool comes_true(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(5ms);
-  }
-  return true;
 }
 
 }  // namespace

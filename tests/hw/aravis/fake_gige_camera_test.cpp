@@ -8,13 +8,12 @@
 
 #include "hw/aravis/aravis_camera.hpp"
 #include "tests/hw/aravis/fake_gige_camera.hpp"
+#include "tests/hw/eventually.hpp"
 
 namespace hogline::hw {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr Duration patience = 60s;  // for what must happen on a loaded machine; nothing waits that long when it does
 
 AravisConfig config_of(const std::string& serial) {
   AravisConfig c;
@@ -31,16 +30,6 @@ AravisConfig config_of(const std::string& serial) {
   c.silence_limit = 1s;
   c.retry_delay = 200ms;
   return c;
-}
-
-template <typename Condition>
-bool comes_true(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
 }
 
 struct Bench {

@@ -1,6 +1,7 @@
 // Two simulated drives, a virtual bus and the adapter, stepped together: drives at 1 kHz, the adapter at 200 Hz.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -11,12 +12,9 @@
 
 #include "hw/canopen/two_wheel_drive.hpp"
 #include "hw/sim/candump.hpp"
-#include "hw/sim/cia402_drive_device.hpp"
-#include "hw/sim/virtual_can_bus.hpp"
+#include "tests/hw/canopen/can_bench.hpp"
 
 namespace hogline::hw::test {
-
-using namespace std::chrono_literals;
 
 inline constexpr double gear_ratio = 20.0;
 
@@ -45,31 +43,21 @@ inline TwoWheelDriveConfig drive_config() {
 }
 
 inline sim::Cia402DriveConfig device_config(std::uint8_t node) {
-  return {.identity = {.node = node,
-                       .device_type = 0x00020192,
-                       .vendor_id = 0x00C0FFEE,
-                       .product_code = 0x402,
-                       .revision = 0x10001,
-                       .serial = node,
-                       .name = "CURLING DRIVE 1"},
-          .axis = {.bandwidth_radps = 120.0,
-                   .dead_time_s = 0.002,
-                   .encoder_counts_per_rev = 8192.0,
-                   .velocity_window_s = 0.004},
-          .position_counts_per_rev = 8192.0,
-          .velocity_units_per_rps = 600.0,
-          .acceleration_units_per_rps2 = 600.0,
-          .switch_on_time_s = 0.05};
+  sim::Cia402DriveConfig config = drive_device(node, 0x402, "CURLING DRIVE 1");
+  config.axis.encoder_counts_per_rev = 8192.0;
+  config.position_counts_per_rev = 8192.0;
+  config.velocity_units_per_rps = 600.0;
+  config.acceleration_units_per_rps2 = 600.0;
+  return config;
 }
 
-class DriveBench {
+class DriveBench final : public CanBench {
  public:
   explicit DriveBench(const TwoWheelDriveConfig& config = drive_config(),
                       const sim::VirtualCanBusConfig& bus_config = {},
                       const sim::Cia402DriveConfig& left_config = device_config(1),
                       const sim::Cia402DriveConfig& right_config = device_config(2))
-      : bus(clock, bus_config),
-        master(bus.make_endpoint()),
+      : CanBench(bus_config),
         left(bus.make_endpoint(), left_config),
         right(bus.make_endpoint(), right_config),
         stray(bus.make_endpoint()),
@@ -80,13 +68,10 @@ class DriveBench {
     });
   }
 
-  Stamp now() const { return clock.now(); }
-
-  /// One millisecond of the world; the adapter takes part in every fifth, unless its loop is held up.
-  void tick() {
-    clock.advance(1ms);
+  void tick() override {
+    advance();
     if (on_tick) on_tick();
-    if (++ticks_ % 5 == 0 && !loop_stalled) {
+    if (period_due()) {
       if (set_point) drive.command(*set_point, now());
       drive.step(now());
     }
@@ -99,22 +84,7 @@ class DriveBench {
     fastest_radps = std::max({fastest_radps, std::abs(wheel_radps(0)), std::abs(wheel_radps(1))});
   }
 
-  void run(Duration span) {
-    for (Duration t{0}; t < span; t += 1ms) tick();
-  }
-
-  /// Runs until the condition holds, and says how long it took; nothing if it never did within the limit.
-  std::optional<Duration> run_until(const std::function<bool()>& condition, Duration limit) {
-    for (Duration t{0}; t <= limit; t += 1ms) {
-      if (condition()) return t;
-      tick();
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Duration> run_until(DrivePhase phase, Duration limit) {
-    return run_until([this, phase] { return drive.state().phase == phase; }, limit);
-  }
+  DrivePhase phase() const override { return drive.state().phase; }
 
   /// Boots, enables and drives both wheels at this speed for a second. False if it did not get there.
   bool get_running(double wheel_speed_radps) {
@@ -136,16 +106,12 @@ class DriveBench {
   double wheel_radps(int wheel) const { return (wheel == 0 ? motor_radps[0] : -motor_radps[1]) / gear_ratio; }
   bool standing() const { return std::abs(wheel_radps(0)) < 0.2 && std::abs(wheel_radps(1)) < 0.2; }
 
-  SteppedClock clock{Stamp{1000s}};
-  sim::VirtualCanBus bus;
-  CanBus& master;
   sim::Cia402DriveDevice left;
   sim::Cia402DriveDevice right;
   CanBus& stray;  ///< somebody else on the bus
   TwoWheelDrive drive;
 
   std::optional<WheelSpeeds> set_point;  ///< what the caller commands every period
-  bool loop_stalled = false;
   std::array<double, 2> motor_radps{};
   sim::AxisPower left_power = sim::AxisPower::unpowered;
   sim::AxisPower right_power = sim::AxisPower::unpowered;
@@ -175,8 +141,6 @@ class DriveBench {
         return;
     }
   }
-
-  int ticks_ = 0;
 };
 
 }  // namespace hogline::hw::test

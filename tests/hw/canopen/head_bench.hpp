@@ -1,18 +1,17 @@
 // Two simulated head drives, a virtual bus and the adapter, stepped together: drives at 1 kHz, the adapter at 200 Hz.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
 
 #include "hw/canopen/two_axis_head.hpp"
-#include "hw/sim/cia402_drive_device.hpp"
-#include "hw/sim/virtual_can_bus.hpp"
+#include "tests/hw/canopen/can_bench.hpp"
 
 namespace hogline::hw::test {
-
-using namespace std::chrono_literals;
 
 inline constexpr double head_gear_ratio = 100.0;
 inline constexpr double degree = std::numbers::pi / 180.0;
@@ -46,31 +45,22 @@ inline TwoAxisHeadConfig head_config() {
 }
 
 inline sim::Cia402DriveConfig head_device_config(std::uint8_t node) {
-  return {.identity = {.node = node,
-                       .device_type = 0x00020192,
-                       .vendor_id = 0x00C0FFEE,
-                       .product_code = 0x403,
-                       .revision = 0x10001,
-                       .serial = node,
-                       .name = "CURLING HEAD"},
-          .axis = {.bandwidth_radps = 150.0,
-                   .dead_time_s = 0.002,
-                   .encoder_counts_per_rev = 4096.0,
-                   .velocity_window_s = 0.004},
-          .position_counts_per_rev = 4096.0,
-          .velocity_units_per_rps = 4096.0,
-          .acceleration_units_per_rps2 = 4096.0,
-          .switch_on_time_s = 0.05,
-          .profile_position = true};
+  sim::Cia402DriveConfig config = drive_device(node, 0x403, "CURLING HEAD");
+  config.axis.bandwidth_radps = 150.0;
+  config.axis.encoder_counts_per_rev = 4096.0;
+  config.position_counts_per_rev = 4096.0;
+  config.velocity_units_per_rps = 4096.0;
+  config.acceleration_units_per_rps2 = 4096.0;
+  config.profile_position = true;
+  return config;
 }
 
-class HeadBench {
+class HeadBench final : public CanBench {
  public:
   explicit HeadBench(const TwoAxisHeadConfig& head_configuration = head_config(),
                      const sim::VirtualCanBusConfig& bus_config = {})
-      : config(head_configuration),
-        bus(clock, bus_config),
-        master(bus.make_endpoint()),
+      : CanBench(bus_config),
+        config(head_configuration),
         pan(bus.make_endpoint(), head_device_config(3)),
         tilt(bus.make_endpoint(), head_device_config(4)),
         stray(bus.make_endpoint()),
@@ -82,11 +72,9 @@ class HeadBench {
     });
   }
 
-  Stamp now() const { return clock.now(); }
-
-  void tick() {
-    clock.advance(1ms);
-    if (++ticks_ % 5 == 0 && !loop_stalled) {
+  void tick() override {
+    advance();
+    if (period_due()) {
       if (rates) head.track(*rates, now());
       head.step(now());
     }
@@ -96,21 +84,7 @@ class HeadBench {
     bus.deliver();
   }
 
-  void run(Duration span) {
-    for (Duration t{0}; t < span; t += 1ms) tick();
-  }
-
-  std::optional<Duration> run_until(const std::function<bool()>& condition, Duration limit) {
-    for (Duration t{0}; t <= limit; t += 1ms) {
-      if (condition()) return t;
-      tick();
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Duration> run_until(DrivePhase phase, Duration limit) {
-    return run_until([this, phase] { return head.state().phase == phase; }, limit);
-  }
+  DrivePhase phase() const override { return head.state().phase; }
 
   bool get_enabled() {
     if (!run_until(DrivePhase::ready, 3s)) return false;
@@ -131,16 +105,12 @@ class HeadBench {
   bool standing() const { return speed_radps() < 0.005; }
 
   TwoAxisHeadConfig config;
-  SteppedClock clock{Stamp{1000s}};
-  sim::VirtualCanBus bus;
-  CanBus& master;
   sim::Cia402DriveDevice pan;
   sim::Cia402DriveDevice tilt;
   CanBus& stray;
   TwoAxisHead head;
 
   std::optional<PanTiltRate> rates;  ///< what the caller asks for every period
-  bool loop_stalled = false;
   std::array<double, 2> motor_radps{};
   std::function<void(const StampedCanFrame&)> on_frame;
 
@@ -156,8 +126,6 @@ class HeadBench {
     const sim::AxisCommand command = device.step(now(), 0.001, speed_radps);
     speed_radps = command.power == sim::AxisPower::driven ? command.speed_radps : 0.0;
   }
-
-  int ticks_ = 0;
 };
 
 }  // namespace hogline::hw::test

@@ -119,6 +119,24 @@ TEST(TwoWheelDriveBus, OurHeartbeatLostAloneStopsTheDrives) {
   ASSERT_TRUE(bench.run_until([&bench] { return bench.standing(); }, 1s));
 }
 
+// The kernel's timer sends SYNC; our program is held up between looking at the clock and reading the bus.
+TEST(TwoWheelDriveBus, FramesReadAllAtOnceByAProgramThatWasHeldUpAreNotTakenForASecondNode) {
+  TwoWheelDriveConfig config = drive_config();
+  config.duties.sync = false;
+  config.timing.rpdo_timeout = 200ms;
+  DriveBench bench(config);
+  bench.on_tick = [&bench] {
+    if ((bench.now() - Stamp{}) % 5ms == 0ms) bench.stray.send({.id = 0x080, .data = {}});
+  };
+  ASSERT_TRUE(bench.get_running(10.0));
+  const Stamp looked_at_the_clock = bench.now() + 5ms;
+  bench.loop_stalled = true;
+  bench.run(45ms);  // nine answers to SYNC wait to be read
+  bench.drive.command({10.0, 10.0}, looked_at_the_clock);
+  bench.drive.step(looked_at_the_clock);
+  EXPECT_FALSE(bench.drive.state().error) << bench.drive.state().error->what;
+}
+
 TEST(TwoWheelDriveBus, ALostOrDoubledFrameNowAndThenIsSurvived) {
   DriveBench bench;
   ASSERT_TRUE(bench.get_running(10.0));

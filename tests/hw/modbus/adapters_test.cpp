@@ -169,6 +169,54 @@ TEST(ModbusArm, a_restarted_device_is_an_error_and_does_not_move) {
   EXPECT_EQ(rig.devices.effects().arm_unfolded, place);
 }
 
+TEST(ModbusArm, a_fault_is_reset_by_rearming_and_by_nothing_else) {
+  Rig rig;
+  rig.run(50ms);
+  rig.arm.unfold();
+  rig.run(300ms);
+  rig.devices.inject([](auto&, auto&, auto& arm) { arm.set_fault(2); });
+  rig.run(100ms);
+  EXPECT_EQ(kind_of(rig.arm.state().error), DeviceErrorKind::device_fault);
+  const double place = rig.devices.effects().arm_unfolded;
+
+  rig.arm.rearm();
+  rig.run(100ms);
+  ASSERT_TRUE(rig.arm.state().error) << "its cause is still there";
+  EXPECT_EQ(rig.arm.state().error->what, "blocked; the fault can not be reset");
+
+  rig.devices.inject([](auto&, auto&, auto& arm) { arm.set_fault(0); });
+  rig.arm.unfold();
+  rig.run(500ms);
+  EXPECT_TRUE(rig.arm.state().error) << "latched here";
+  rig.devices.inject([](auto&, auto&, auto& arm) { EXPECT_EQ(arm.inputs()[3] & 0x08, 0x08) << "and there"; });
+
+  rig.arm.rearm();
+  rig.run(300ms);
+  EXPECT_FALSE(rig.arm.state().error) << rig.arm.state().error->what;
+  EXPECT_EQ(rig.devices.effects().arm_unfolded, place) << "nothing moves before a new order";
+  rig.arm.unfold();
+  rig.run(1600ms);
+  EXPECT_EQ(rig.arm.state().position, ArmPosition::unfolded);
+}
+
+TEST(ModbusArm, a_fault_behind_a_dead_line_is_not_reset_by_the_rearming_before_it) {
+  Rig rig;
+  rig.run(50ms);
+  rig.devices.stop();
+  rig.run(200ms);
+  rig.arm.rearm();
+  rig.run(200ms);
+  EXPECT_TRUE(rig.arm.state().error);
+  rig.devices.inject([](auto&, auto&, auto& arm) {
+    arm.set_fault(1);
+    arm.set_fault(0);
+  });
+  rig.revive();
+  rig.run(500ms);
+  EXPECT_TRUE(rig.arm.state().error);
+  rig.devices.inject([](auto&, auto&, auto& arm) { EXPECT_EQ(arm.inputs()[3] & 0x08, 0x08); });
+}
+
 TEST(ModbusLine, an_axis_with_frozen_registers_is_found_by_the_watchdog_echo) {
   Rig rig;
   rig.run(100ms);

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "hw/modbus/modbus_arm.hpp"
-#include "hw/modbus/modbus_gripper.hpp"
 #include "hw/sim/modbus_devices.hpp"
+#include "tests/hw/modbus/adapter_config.hpp"
 
 namespace hogline::hw {
 
@@ -43,16 +42,8 @@ class Rig {
                 {.travel_time_s = 1.5, .unfolded_at_start = false, .watchdog_s = 0.2}, 7, Stamp{}),
         session({.line = {.line = line(config.wire), .response_timeout = config.response_timeout},
                  .reconnect_delay = config.reconnect_delay}),
-        gripper(session, {.jaws = {.unit = 9,
-                                   .poll_period = 20ms,
-                                   .echo_deadline = 60ms,
-                                   .activation_deadline = 3s,
-                                   .silence_limit = 60ms,
-                                   .close_speed = 255,
-                                   .close_force = 128},
-                          .belt = {.unit = 10, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms},
-                          .max_spin_radps = 2.5}),
-        arm(session, {.unit = 11, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms}) {}
+        gripper(session, gripper_config()),
+        arm(session, arm_config()) {}
 
   /// Control periods of 5 ms: the devices first, then the adapters.
   void run(Duration span) {

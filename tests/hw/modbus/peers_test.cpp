@@ -50,13 +50,7 @@ class ForeignGripper : public testing::TestWithParam<Wire> {
 
   std::unique_ptr<Peer> peer;
   std::unique_ptr<ModbusSession> session;
-  RobotiqJaws jaws{{.unit = 9,
-                    .poll_period = 20ms,
-                    .echo_deadline = 60ms,
-                    .activation_deadline = 3s,
-                    .silence_limit = 60ms,
-                    .close_speed = 255,
-                    .close_force = 128}};
+  RobotiqJaws jaws{jaws_config()};
   Stamp now{};
 };
 

@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "hw/sim/modbus_devices.hpp"
+#include "tests/hw/modbus/adapter_config.hpp"
 
 namespace hogline::hw {
 namespace {
@@ -24,6 +25,8 @@ class SharedClock final : public Clock {
 
 // The clock runs much faster than the machine, so the deadlines in its time are long.
 constexpr Duration silence_limit = 100000s;
+constexpr AdapterPace unhurried{
+    .poll_period = 1ms, .echo_deadline = 3600s, .activation_deadline = 3600s, .silence_limit = silence_limit};
 
 class Rig {
  public:
@@ -55,22 +58,13 @@ class Rig {
                              {.travel_time_s = 1.5, .unfolded_at_start = false, .watchdog_s = 1e6},
                              7,
                              Stamp{}};
-  ModbusWorker worker{
-      {.session = {.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 500ms},
-                   .reconnect_delay = 1ms},
-       .gripper = {.jaws = {.unit = 9,
-                            .poll_period = 1ms,
-                            .echo_deadline = 3600s,
-                            .activation_deadline = 3600s,
-                            .silence_limit = silence_limit,
-                            .close_speed = 255,
-                            .close_force = 128},
-                   .belt = {.unit = 10, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = silence_limit},
-                   .max_spin_radps = 2.5},
-       .arm = {.unit = 11, .poll_period = 1ms, .echo_deadline = 3600s, .silence_limit = silence_limit},
-       .tick = 100us,
-       .order_age_limit = order_age_limit_},
-      clock};
+  ModbusWorker worker{{.session = {.line = {.line = ModbusTcp{"127.0.0.1", devices.port()}, .response_timeout = 500ms},
+                                   .reconnect_delay = 1ms},
+                       .gripper = gripper_config(2.5, unhurried),
+                       .arm = arm_config(unhurried),
+                       .tick = 100us,
+                       .order_age_limit = order_age_limit_},
+                      clock};
 };
 
 TEST(ModbusWorker, carries_orders_and_gives_states) {
@@ -145,7 +139,7 @@ TEST(ModbusWorker, each_port_is_rearmed_by_itself) {
   rig.run_until([&] { return gripper.state().error && arm.state().error; });
   rig.devices.inject([](auto& jaws, auto&, auto& axis) {
     jaws.set_fault(0);
-    axis.power_cycle();
+    axis.set_fault(0);
   });
   arm.rearm();
   rig.run_until([&] { return !arm.state().error; });

@@ -135,6 +135,27 @@ TEST(SimulatedBelt, stops_when_its_watchdog_is_not_refreshed_and_stays_so) {
   EXPECT_NEAR(rig.devices.effects().belt_radps, 1.2, 1e-9);
 }
 
+TEST(SimulatedAxes, latch_a_fault_until_it_is_reset_by_its_command) {
+  Rig rig;
+  rig.run(10ms);
+  const auto faulted = [&rig] { return (rig.read<8>(10, 0x0200)[3] & 0x08) != 0; };
+  ASSERT_TRUE(rig.write(10, 0x0100, std::array<std::uint16_t, 3>{1, 1, 1200}));
+  rig.run(100ms);
+  rig.devices.inject([](auto&, auto& device, auto&) { device.set_fault(1); });
+  rig.run(1s);
+  EXPECT_EQ(rig.devices.effects().belt_radps, 0.0);
+  EXPECT_FALSE(rig.write(10, 0x0100, std::array<std::uint16_t, 3>{2, 3, 0})) << "its cause is still there";
+  rig.devices.inject([](auto&, auto& device, auto&) { device.set_fault(0); });
+  EXPECT_TRUE(faulted()) << "latched";
+  EXPECT_FALSE(rig.write(10, 0x0100, std::array<std::uint16_t, 3>{2, 1, 1200})) << "runs only after the reset";
+  EXPECT_TRUE(rig.write(10, 0x0100, std::array<std::uint16_t, 3>{2, 0, 0})) << "a stop is always taken";
+  EXPECT_TRUE(faulted()) << "and clears nothing";
+  EXPECT_TRUE(rig.write(10, 0x0100, std::array<std::uint16_t, 3>{3, 3, 0}));
+  EXPECT_FALSE(faulted());
+  rig.run(500ms);
+  EXPECT_EQ(rig.devices.effects().belt_radps, 0.0) << "stands until the next command";
+}
+
 TEST(SimulatedAxes, answer_wrong_requests_with_the_documented_exceptions) {
   struct Case {
     const char* what;

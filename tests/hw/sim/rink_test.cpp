@@ -8,8 +8,7 @@
 
 #include "hw/canopen/two_wheel_drive.hpp"
 #include "hw/dsp3000/dsp3000_gyro.hpp"
-#include "hw/modbus/modbus_arm.hpp"
-#include "hw/modbus/modbus_gripper.hpp"
+#include "tests/hw/modbus/adapter_config.hpp"
 #include "tests/hw/sim/reference_scenario.hpp"
 #include "tests/hw/sim/reference_wheels.hpp"
 
@@ -92,16 +91,8 @@ class Program {
         drive(rink.can(), drive_config()),
         session({.line = {.line = ModbusTcp{"127.0.0.1", rink.modbus_port()}, .response_timeout = 500ms},
                  .reconnect_delay = 200ms}),
-        gripper(session, {.jaws = {.unit = 9,
-                                   .poll_period = 20ms,
-                                   .echo_deadline = 60ms,
-                                   .activation_deadline = 3s,
-                                   .silence_limit = 60ms,
-                                   .close_speed = 255,
-                                   .close_force = 128},
-                          .belt = {.unit = 10, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms},
-                          .max_spin_radps = 3.0}),
-        arm(session, {.unit = 11, .poll_period = 20ms, .echo_deadline = 60ms, .silence_limit = 60ms}),
+        gripper(session, gripper_config(3.0)),
+        arm(session, arm_config()),
         gyro_line(rink),
         gyro(gyro_line, gyro_config()) {}
 

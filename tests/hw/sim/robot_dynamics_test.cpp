@@ -14,6 +14,7 @@ namespace {
 
 constexpr double dt_s = 0.001;
 constexpr double g = 9.80665;
+constexpr double grip_share = 100.0 / 118.0;  // the stone of 18 kg lies on the ice and must be moved all the same
 
 // Both axes ramp up with this acceleration of the rim for this long.
 void ramp(RobotDynamics& robot, double rim_mps2, double span_s, double radius_m = 0.1) {
@@ -35,9 +36,9 @@ RC_GTEST_PROP(RobotDynamics, does_not_slip_below_the_traction_limit_and_slips_be
   const double share = 0.01 * *rc::gen::inRange(10, 300);
   RC_PRE(std::abs(share - 1.0) > 0.02);
   RobotDynamics robot(scenario, 1);
-  ramp(robot, share * scenario.friction_coefficient * g, 0.5);
+  const double most = scenario.friction_coefficient * g * grip_share;
+  ramp(robot, share * most, 0.5);
   RC_ASSERT(robot.slipping() == (share > 1.0));
-  const double most = scenario.friction_coefficient * g;
   RC_ASSERT(robot.acceleration_mps2() <= most + 1e-9);
   RC_ASSERT(std::abs(robot.acceleration_mps2() - std::min(share, 1.0) * most) < 1e-6);
 }
@@ -107,7 +108,7 @@ TEST(RobotDynamics, free_wheels_roll_out_and_never_roll_back) {
   RobotDynamics robot(exact_scenario().robot, 1);
   ramp(robot, 0.5, 2.0);
   hold(robot, {}, 5.0);
-  EXPECT_NEAR(robot.twist().forward_mps, 1.0 - 0.01 * g * 5.0, 1e-6);
+  EXPECT_NEAR(robot.twist().forward_mps, 1.0 - 0.01 * g * grip_share * 5.0, 1e-6);
   EXPECT_NEAR(robot.left_radps(), robot.twist().forward_mps / 0.1, 1e-9);
   EXPECT_FALSE(robot.slipping());
   hold(robot, {}, 10.0);
@@ -120,7 +121,7 @@ TEST(RobotDynamics, locked_wheels_brake_with_the_ice_alone) {
   RobotDynamics robot(scenario, 1);
   ramp(robot, 0.5, 4.0);
   hold(robot, {0.0, 0.0}, 1.0);
-  EXPECT_NEAR(robot.twist().forward_mps, 2.0 - 0.1 * g, 1e-6);
+  EXPECT_NEAR(robot.twist().forward_mps, 2.0 - 0.1 * g * grip_share, 1e-6);
   EXPECT_TRUE(robot.slipping());
 }
 
@@ -165,6 +166,40 @@ TEST(RobotDynamics, the_wandering_has_its_stated_size_and_its_seed) {
   EXPECT_NEAR(mean, 0.0, 0.0015);
   EXPECT_EQ(values, rates(3));
   EXPECT_NE(values, rates(4));
+}
+
+TEST(RobotDynamics, a_wheel_that_pulls_creeps_in_proportion_to_its_pull) {
+  auto scenario = exact_scenario().robot;
+  scenario.creep = 0.03;
+  for (const double acceleration : {0.2, 0.4, 0.8}) {
+    RobotDynamics robot(scenario, 1);
+    ramp(robot, acceleration, 4.0);
+    const double slip = 1.0 - robot.twist().forward_mps / (robot.left_radps() * 0.1);
+    EXPECT_NEAR(slip, 0.03 * acceleration / g / grip_share, 2e-5) << acceleration;
+    EXPECT_FALSE(robot.slipping());
+    hold(robot, {robot.left_radps(), robot.right_radps()}, 1.0);
+    EXPECT_NEAR(robot.twist().forward_mps, robot.left_radps() * 0.1, 1e-6) << "nothing pulls any more";
+  }
+}
+
+TEST(RobotDynamics, the_runner_takes_grip_from_the_wheels_and_more_while_braking) {
+  auto scenario = exact_scenario().robot;
+  scenario.runner_x_m = 0.7;
+  scenario.mass_x_m = 0.07;
+  scenario.friction_coefficient = 0.2;
+  const auto limit = [&](double rim_mps2) {
+    RobotDynamics robot(scenario, 1);
+    hold(robot, {}, 0.01);
+    ramp(robot, rim_mps2, 0.4);
+    EXPECT_TRUE(robot.slipping());
+    return std::abs(robot.acceleration_mps2());
+  };
+  const double plain = 0.2 * g * grip_share;
+  EXPECT_NEAR(limit(5.0), 0.9 * plain, 1e-6);
+  scenario.mass_z_m = 0.3;
+  // Of N = W (1 - (x - z a / g) / L): the grip grows while it speeds up and falls while it brakes.
+  EXPECT_NEAR(limit(5.0), 0.9 * plain / (1.0 - plain * 0.3 / (g * 0.7)), 1e-3);
+  EXPECT_NEAR(limit(-5.0), 0.9 * plain / (1.0 + plain * 0.3 / (g * 0.7)), 1e-3);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // The stone: FCV1's checks, and its way from the jaws.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "hw/sim/stone_motion.hpp"
 #include "hw/sim/world.hpp"
@@ -90,6 +92,124 @@ TEST(StoneMotion, factors_of_the_session_scale_friction_and_curl) {
   EXPECT_NEAR(run_from_hog(2.10, 1.5, exact_scenario().stone).travel_m - exact.travel_m, 0.295, 0.03) << "1 cm/s";
 }
 
+TEST(StoneMotion, the_friction_coefficient_is_that_of_ice) {
+  for (const double speed : {0.3, 1.0, 2.3}) {
+    StoneTruth stone{.vy_mps = speed};
+    slide(stone, exact_scenario().stone, dt_s);
+    const double coefficient = (speed - stone.vy_mps) / dt_s / 9.80665;
+    EXPECT_GE(coefficient, 0.006) << speed;
+    EXPECT_LE(coefficient, 0.016) << speed;
+  }
+}
+
+TEST(StoneMotion, the_curl_does_not_depend_on_how_fast_the_stone_turns) {
+  EXPECT_NEAR(run_from_hog(2.09, 1.0, exact_scenario().stone).curl_m,
+              run_from_hog(2.09, 2.5, exact_scenario().stone).curl_m, 0.01);
+}
+
+TEST(StoneMotion, the_lane_beside_the_centre_line_is_slower) {
+  auto scenario = exact_scenario().stone;
+  scenario.lane_friction = 0.05;
+  StoneTruth middle{.x_m = 0.0, .vy_mps = 2.0};
+  StoneTruth beside{.x_m = -2.0, .vy_mps = 2.0};
+  slide(middle, scenario, dt_s);
+  slide(beside, scenario, dt_s);
+  EXPECT_NEAR((2.0 - beside.vy_mps) / (2.0 - middle.vy_mps), 1.1, 1e-9);
+}
+
+TEST(StoneMotion, a_floor_that_is_not_level_carries_the_stone_aside) {
+  auto scenario = exact_scenario().stone;
+  scenario.curl_gain = 0.0;
+  scenario.lateral_acceleration_mps2 = 0.0005;
+  const auto run = run_from_hog(2.09, 1.5, scenario);
+  const double without_friction_m = 0.5 * 0.0005 * run.to_rest_s * run.to_rest_s;
+  EXPECT_LT(-run.curl_m, without_friction_m);
+  EXPECT_GT(-run.curl_m, 0.4 * without_friction_m) << "friction brakes this motion, too";
+}
+
+struct Momenta {
+  double x = 0.0;
+  double y = 0.0;
+  double turning = 0.0;  // about e's origin, per mass
+  double energy = 0.0;   // per mass
+};
+Momenta momenta(const std::vector<StoneTruth>& stones, double radius_m) {
+  Momenta m;
+  const double inertia = 0.5 * radius_m * radius_m;  // a disc's, per mass
+  for (const auto& s : stones) {
+    m.x += s.vx_mps;
+    m.y += s.vy_mps;
+    m.turning += s.x_m * s.vy_mps - s.y_m * s.vx_mps + inertia * s.spin_radps;
+    m.energy += 0.5 * (s.vx_mps * s.vx_mps + s.vy_mps * s.vy_mps + inertia * s.spin_radps * s.spin_radps);
+  }
+  return m;
+}
+
+RC_GTEST_PROP(Collision, conserves_momentum_and_angular_momentum_and_makes_no_energy, ()) {
+  const auto number = [](int low, int high) { return 0.01 * *rc::gen::inRange(low, high); };
+  auto scenario = exact_scenario().stone;
+  scenario.restitution = number(0, 101);
+  scenario.stone_friction = number(0, 60);
+  const double direction = number(0, 628);
+  StoneTruth a{.x_m = number(-200, 200),
+               .y_m = number(0, 3000),
+               .vx_mps = number(-300, 300),
+               .vy_mps = number(-300, 300),
+               .spin_radps = number(-300, 300)};
+  StoneTruth b{.x_m = a.x_m + 0.2899 * std::cos(direction),
+               .y_m = a.y_m + 0.2899 * std::sin(direction),
+               .vx_mps = number(-300, 300),
+               .vy_mps = number(-300, 300),
+               .spin_radps = number(-300, 300)};
+  const Momenta before = momenta({a, b}, 0.145);
+  const bool hit = collide(a, b, scenario);
+  const Momenta after = momenta({a, b}, 0.145);
+  RC_ASSERT(std::abs(after.x - before.x) < 1e-12);
+  RC_ASSERT(std::abs(after.y - before.y) < 1e-12);
+  RC_ASSERT(std::abs(after.turning - before.turning) < 1e-9);
+  RC_ASSERT(after.energy <= before.energy + 1e-12);
+  RC_ASSERT(!collide(a, b, scenario) || scenario.restitution == 0.0);
+  RC_CLASSIFY(hit);
+}
+
+TEST(Collision, head_on_the_target_takes_the_share_of_the_reference) {
+  auto scenario = exact_scenario().stone;
+  scenario.restitution = 0.9;
+  StoneTruth a{.vy_mps = 2.0};
+  StoneTruth b{.y_m = 0.29};
+  ASSERT_TRUE(collide(a, b, scenario));
+  EXPECT_NEAR(b.vy_mps, 0.95 * 2.0, 1e-12);
+  EXPECT_NEAR(a.vy_mps, 0.05 * 2.0, 1e-12);
+  EXPECT_EQ(b.vx_mps, 0.0);
+}
+
+TEST(Collision, stones_apart_or_parting_are_left_alone) {
+  const auto scenario = exact_scenario().stone;
+  StoneTruth a{.vy_mps = 2.0};
+  StoneTruth far{.y_m = 0.2901};
+  EXPECT_FALSE(collide(a, far, scenario));
+  StoneTruth ahead{.y_m = 0.29, .vy_mps = 2.5};
+  EXPECT_FALSE(collide(a, ahead, scenario));
+}
+
+TEST(Collision, a_turning_stone_drives_the_other_aside_by_friction_alone) {
+  auto scenario = exact_scenario().stone;
+  scenario.restitution = 1.0;
+  StoneTruth a{.vy_mps = 2.0, .spin_radps = 2.0};
+  StoneTruth b{.y_m = 0.29};
+  auto smooth = scenario;
+  StoneTruth c = a;
+  StoneTruth d = b;
+  collide(c, d, smooth);
+  EXPECT_EQ(d.vx_mps, 0.0);
+  EXPECT_EQ(d.spin_radps, 0.0);
+  scenario.stone_friction = 0.1;
+  collide(a, b, scenario);
+  EXPECT_LT(b.vx_mps, 0.0) << "a's front rim runs to the left";
+  EXPECT_LT(b.spin_radps, 0.0) << "gear wheels turn against each other";
+  EXPECT_LE(std::abs(b.vx_mps), 0.1 * b.vy_mps + 1e-12) << "Coulomb's limit";
+}
+
 class Delivery {
  public:
   explicit Delivery(const Scenario& chosen) : scenario(chosen), world(chosen, Stamp{}) {}
@@ -166,6 +286,44 @@ TEST(World, a_robot_that_turns_away_burns_the_stone_with_its_fingers) {
   delivery.inputs.stone_free_at = delivery.now;
   delivery.drive_at(8.0, 10.0, 400ms);
   EXPECT_TRUE(delivery.truth().burned);
+}
+
+TEST(World, a_thrown_stone_takes_out_one_that_lies_in_its_way) {
+  auto scenario = exact_scenario();
+  scenario.stone.restitution = 0.9;
+  scenario.stone.curl_gain = 0.0;
+  scenario.stone.others = {{0.0, 12.0}, {1.0, 12.0}};
+  Delivery delivery(scenario);
+  delivery.speed_up_to(2.5, 0.4);
+  delivery.inputs.stone_free_at = delivery.now;
+  delivery.drive_at(0.0, 0.0, 20s);
+  const auto& truth = delivery.truth();
+  EXPECT_EQ(truth.hits, 1);
+  EXPECT_GT(truth.others[0].y_m, 20.0);
+  EXPECT_LT(truth.stone.y_m, 13.0);
+  EXPECT_EQ(truth.others[1].y_m, 12.0);
+}
+
+TEST(World, friction_differs_from_throw_to_throw_as_the_scenario_says) {
+  auto scenario = exact_scenario();
+  scenario.robot.start_y_m = 0.0;
+  scenario.stone.throw_friction_sigma = 0.01;
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int throws = 200;
+  for (int i = 0; i < throws; ++i) {
+    scenario.seed = static_cast<std::uint64_t>(i);
+    World world(scenario, Stamp{});
+    world.step({.axes = {20.0, 20.0}, .stone_free_at = Stamp{} + 700ms}, Stamp{} + 700ms);
+    const double before = world.truth().stone.vy_mps;
+    world.step({.axes = {0.0, 0.0}, .stone_free_at = {}}, Stamp{} + 800ms);
+    const double scale =
+        (before - world.truth().stone.vy_mps) / (0.1 * 9.80665 * (0.00200985 / (before + 0.06385782) + 0.00626286));
+    sum += scale - 1.0;
+    squares += (scale - 1.0) * (scale - 1.0);
+  }
+  EXPECT_NEAR(sum / throws, 0.0, 0.003);
+  EXPECT_NEAR(std::sqrt(squares / throws), 0.01, 0.0015);
 }
 
 TEST(World, the_same_seed_gives_the_same_run_and_another_seed_another) {

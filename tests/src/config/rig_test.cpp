@@ -163,6 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "a4: &a4 [*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3,*a3]\na5: [*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4,*a4]\n",
                 "", "too many values"},
         Refusal{"no YAML", "cameras: [", "", "not YAML"}, Refusal{"empty file", "", "", "must hold one YAML document"},
+        Refusal{"broken, with documents without end", ", 1e999 : \n---\vb", "", ""},
         Refusal{"a list", "- 1\n- 2\n", "", "must hold one YAML document"},
         Refusal{"binary", std::string("\x89PNG\r\n\x1a\n\0\0", 10), "", ""}));
 

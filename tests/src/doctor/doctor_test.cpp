@@ -35,18 +35,14 @@ std::string practice() {
 struct Bench {
   explicit Bench(bool arm_unfolded = false) : rig(quick_rig()), robot(rig, scenario_of(arm_unfolded)), site(robot) {}
 
-  static config::ThrowerRig quick_rig() {
-    config::ThrowerRig quick = config::parse_thrower_rig(practice(), "practice");
-    quick.modbus.line.response_timeout = std::chrono::milliseconds(200);  // a silent line is asked nine times
-    return quick;
-  }
+  static config::ThrowerRig quick_rig() { return config::parse_thrower_rig(practice(), "practice"); }
   static hw::sim::Scenario scenario_of(bool arm_unfolded) {
     auto scenario = config::parse_scenario(config::embedded_file("scenarios/practice.yaml"), "practice", 1);
     scenario.arm.unfolded_at_start = arm_unfolded;
     return scenario;
   }
   const std::vector<Finding>& examine() {
-    findings = doctor::examine(rig, site);
+    findings = doctor::examine(config::devices_of(rig), site);
     return findings;
   }
   const Finding& of(const std::string& device) const {

@@ -10,7 +10,7 @@
 namespace hogline::doctor {
 namespace {
 
-config::ThrowerRig rig_of(const std::string& serial) {
+config::DeviceRig rig_of(const std::string& serial) {
   std::string text{config::embedded_file("rigs/practice.yaml")};
   const auto replace = [&text](const std::string& from, const std::string& to) {
     const auto at = text.rfind(from);  // the low camera's
@@ -24,10 +24,10 @@ config::ThrowerRig rig_of(const std::string& serial) {
               ", pixel_format: Mono8, exposure_s: 0.003, frame_rate_hz: 60, packet_size_bytes: 9000,"
               " stamp: arrival, latency_s: 0, first_frame_s: 3, retry_s: 1}, max_age_s: 1, silence_limit_s: 2}");
   replace("interface: can0", "interface: nosuchcan0");
-  return config::parse_thrower_rig(text, "rig.yaml");
+  return config::parse_device_rig(text, "rig.yaml");
 }
 
-Finding low_camera(const config::ThrowerRig& rig) {
+Finding low_camera(const config::DeviceRig& rig) {
   SteelSite site(rig);
   return examine_camera("low", rig.rig.source("low"), false, site);
 }

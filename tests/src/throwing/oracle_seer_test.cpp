@@ -113,7 +113,9 @@ TEST(OracleSeer, errs_as_vision_does) {
       robot.devices(), ThrowerEyes(both, rig.looks),
       servo::Thrower(rig.thrower,
                      {.speed_mps = 2.3, .heading_rad = 0.0, .curl = servo::Curl::clockwise, .spin_radps = 1.5},
-                     robot.rink().now()));
+                     robot.rink().now()),
+      servo::Supervisor(rig.thrower));
+  ASSERT_FALSE(loop.arm(robot.rink().now()));
   while (!loop.thrower().finished()) {
     robot.rink().step(period);
     loop.step(robot.rink().now(), period);

@@ -1,0 +1,46 @@
+// Which release brings a stone to a wanted place on this ice: speed, heading and sense of spin. Frame s throughout.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "servo/ice_model.hpp"
+#include "servo/shot.hpp"
+
+namespace hogline::servo {
+
+struct Place {
+  double x_m = 0.0;
+  double y_m = 0.0;
+};
+
+/// What the thrower can do: where it lets go, how fast it may be, how true it is.
+struct ThrowerSkill {
+  Place release;  ///< of the stone's centre
+  double max_speed_mps = 0.0;
+  double spin_radps = 0.0;  ///< magnitude at release
+  double speed_sigma_mps = 0.0;
+  double heading_sigma_rad = 0.0;
+};
+
+struct ShotWish {
+  Place rest;                   ///< where the stone shall stop
+  std::optional<Curl> curl{};   ///< empty: the sense that keeps clearer of the stones, or is the surer of the two
+  std::vector<Place> stones{};  ///< that stand on the sheet
+};
+
+struct ShotAim {
+  bool ok = false;
+  std::string reason;          ///< why not, when !ok
+  ShotOrder order;             ///< heading from s's y axis, which is e's of the thrower
+  Place rest;                  ///< as predicted, within a millimetre of the wish
+  PlaceCovariance covariance;  ///< of where it will stop: ice, its scatter from throw to throw, and the thrower
+  double clearance_m = 0.0;    ///< least gap between the running stone and one that stands; large without any
+};
+
+/// A way that touches a stone before its end is refused ("the way is not free"), one beyond the thrower's speed too.
+ShotAim aim_shot(const ShotWish& wish, const ThrowerSkill& skill, const IceModel& ice);
+
+}  // namespace hogline::servo

@@ -1,0 +1,30 @@
+// How fast a stone turns, from the direction of its handle.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "servo/stone_path.hpp"
+#include "vision/percepts/stamp.hpp"
+
+namespace hogline::servo {
+
+struct HandleLook {
+  double after_s = 0.0;  ///< from the path's start
+  double handle_rad = 0.0;
+};
+
+/// `ok == false`: not measured, with the reason.
+struct StoneRotation {
+  bool ok = false;
+  std::string reason;
+  double spin_radps = 0.0;  ///< at the path's start, counter-clockwise from above positive
+  double sigma_radps = 0.0;
+  double loss = 0.0;  ///< of spin, in FCV1's: 1 as published
+};
+
+/// A grip looks the same from both ends: directions count modulo half a turn. The spin falls as the stone slows (FCV1:
+/// 0.025 / v rad/s2, times a loss that is fitted too). Looks by their time, less than half a second apart or so.
+StoneRotation rotation_of(const std::vector<HandleLook>& looks, const StonePath& path);
+
+}  // namespace hogline::servo

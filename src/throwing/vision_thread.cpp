@@ -1,0 +1,88 @@
+#include "src/throwing/vision_thread.hpp"
+
+#include <utility>
+
+namespace hogline {
+namespace {
+
+// The loop asks each control period; a camera nobody asks is not watched.
+constexpr Duration asked_lately = std::chrono::milliseconds(50);
+constexpr auto pause = std::chrono::microseconds(500);
+
+}  // namespace
+
+std::optional<hw::Frame> VisionThread::Mailbox::latest(Stamp now) {
+  const std::lock_guard lock(mutex_);
+  asked_ = now;
+  return std::exchange(done_, std::nullopt);
+}
+
+std::optional<hw::DeviceError> VisionThread::Mailbox::error() const {
+  const std::lock_guard lock(mutex_);
+  return error_;
+}
+
+void VisionThread::Mailbox::rearm() {
+  const std::lock_guard lock(mutex_);
+  rearm_ = true;
+  error_.reset();
+}
+
+SheetPosePercept VisionThread::Mailbox::percept(const vision::LowViewPrediction& hint) {
+  const std::lock_guard lock(mutex_);
+  hint_ = hint;
+  return percept_;
+}
+
+bool VisionThread::Mailbox::wanted() const {
+  const std::lock_guard lock(mutex_);
+  return asked_ != Stamp{} && clock_.now() - asked_ < asked_lately;
+}
+
+std::optional<hw::Frame> VisionThread::Mailbox::take() {
+  bool rearm = false;
+  {
+    const std::lock_guard lock(mutex_);
+    rearm = std::exchange(rearm_, false);
+  }
+  if (rearm) camera_.rearm();
+  auto frame = camera_.latest(clock_.now());
+  const std::lock_guard lock(mutex_);
+  error_ = camera_.error();
+  return frame;
+}
+
+vision::LowViewPrediction VisionThread::Mailbox::hint() const {
+  const std::lock_guard lock(mutex_);
+  return hint_;
+}
+
+void VisionThread::Mailbox::deliver(const hw::Frame& frame, SheetPosePercept percept) {
+  const std::lock_guard lock(mutex_);
+  done_ = hw::Frame{.bgr = {}, .stamp = frame.stamp, .id = frame.id};
+  percept_ = std::move(percept);
+}
+
+VisionThread::VisionThread(SheetSeer& seer, hw::Camera& near_camera, hw::Camera& low_camera, const hw::Clock& clock)
+    : seer_(seer),
+      near_(near_camera, clock),
+      low_(low_camera, clock),
+      mailbox_seer_(near_, low_),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+VisionThread::~VisionThread() = default;
+
+void VisionThread::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    Mailbox& box = low_.wanted() ? low_ : near_;
+    const auto frame = box.wanted() ? box.take() : std::nullopt;
+    if (!frame) {
+      std::this_thread::sleep_for(pause);
+      continue;
+    }
+    box.deliver(*frame, &box == &near_ ? seer_.near_view(*frame) : seer_.low_view(*frame, low_.hint()));
+    ++looks_;
+  }
+}
+
+}  // namespace hogline
