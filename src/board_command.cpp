@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
+#include <optional>
 
 #include "src/drawing/board_picture.hpp"
 #include "src/drawing/contact_sheet.hpp"
@@ -59,33 +59,30 @@ std::string remarks(const vision::RuledStone& s) {
   return all;
 }
 
-void tell(const vision::Board& board, int frames) {
+void tell(const vision::Board& board, int frames, const TeamNames& names) {
   fmt::print("{} stones in {} pictures\n", board.stones.size(), frames);
   fmt::print("{:>3} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "", "team", "x / m", "y / m", "tee / m", "sigma");
   for (const vision::RuledStone& s : board.stones) {
     const double sigma_m = std::sqrt(std::max(s.seen.covariance.xx_m2, s.seen.covariance.yy_m2));
     fmt::print("{:>3} {:<8} {:>8.3f} {:>8.3f} {:>8.3f} {:>7.3f}  {}\n", s.order > 0 ? std::to_string(s.order) : "",
-               team_name(s.seen.team), s.seen.x_m, s.seen.y_m, s.tee_distance_m, sigma_m, remarks(s));
+               team_name(s.seen.team, names), s.seen.x_m, s.seen.y_m, s.tee_distance_m, sigma_m, remarks(s));
   }
   if (!board.shot) {
     fmt::print("no stone in the house\n");
     return;
   }
-  fmt::print("shot stone: {}{}, lying {}\n", team_name(board.scoring), board.shot_certain ? "" : " (too near to call)",
-             board.score);
+  fmt::print("shot stone: {}{}, lying {}\n", team_name(board.scoring, names),
+             board.shot_certain ? "" : " (too near to call)", board.score);
 }
 
-void draw(const BoardOptions& options, const vision::StonesSetup& setup, const vision::Board& board,
-          const Looks& looks) {
+void draw(DrawingFolder& drawings, const vision::StonesSetup& setup, const vision::Board& board, const Looks& looks) {
   const vision::SheetCamera camera(vision::Lens(setup.camera.intrinsics), vision::from_row_major(looks.sheet.eMc),
                                    setup.camera.ice);
   const cv::Mat page =
       drawing::draw_contact_sheet({{{drawing::draw_stones(looks.last, board, camera, setup.shape), "what was seen"},
                                     {drawing::draw_board(board, looks.sheet.sheet_width_m, 1200), "from above"}}},
                                   1800);
-  std::filesystem::create_directories(options.out);
-  save_drawing(options.out, "board", page);
-  fmt::print("drawing: {}\n", (std::filesystem::path(options.out) / "board.png").string());
+  fmt::print("drawing: {}\n", drawings.save("board", page));
 }
 
 }  // namespace
@@ -93,14 +90,16 @@ void draw(const BoardOptions& options, const vision::StonesSetup& setup, const v
 int run_board(const BoardOptions& options) {
   const config::Rig rig = config::load_rig(options.rig);
   const vision::StonesSetup setup = stones_setup(rig);
+  std::optional<DrawingFolder> drawings;
+  if (options.out) drawings.emplace("--out", *options.out);
   const Looks looks = look_at_all(options, setup);
   if (looks.average.frames() == 0) {
     fmt::print("nothing seen\n");
     return ExitStatus::not_achieved;
   }
   const vision::Board board = vision::judge(looks.average.stones(), looks.sheet.sheet_width_m);
-  tell(board, looks.average.frames());
-  if (!options.out.empty()) draw(options, setup, board, looks);
+  tell(board, looks.average.frames(), team_names(rig));
+  if (drawings) draw(*drawings, setup, board, looks);
   return ExitStatus::success;
 }
 

@@ -1,6 +1,7 @@
 // `hogline board`: what lies on the sheet under the rules, printed and drawn.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@ namespace hogline {
 
 struct BoardOptions {
   std::string rig;
-  std::string out;  ///< folder for the drawing; empty for none
+  std::optional<std::string> out;  ///< folder for the drawing; nothing: none
   std::vector<std::string> images;
 };
 

@@ -152,7 +152,7 @@ int run_campaign(const CampaignOptions& options) {
   const Summary summary = summarise(folder.rows(), options.tee_draws);
   write(options.out + "/summary.md", markdown(summary));
   write(options.out + "/summary.json", json(summary));
-  save_drawing(options.out, "distributions", distributions(folder.rows()));
+  DrawingFolder("--out", options.out).save("distributions", distributions(folder.rows()));
   fmt::print("{}", markdown(summary));
   return summary.ok == summary.throws ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -66,14 +66,21 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
   auto* stones = app.add_subcommand("stones", "the stones on the sheet from pictures of the near camera");
   stones->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")
       ->required();
+  stones->add_flag("--sequence", options.sequence,
+                   "the pictures are of one robot that stands still: one line with their stones' means");
   stones->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
-  stones->add_option("IMAGE", options.images, "pictures as the camera gives them")->required();
+  stones
+      ->add_option("IMAGE", options.images,
+                   "pictures as the camera gives them, or one recording of them: a folder, a video, a stamps file")
+      ->required();
   stones->footer(
       "Prints one JSON object a line, places in metres from the tee of the house in view.\n"
-      "Example:\n"
+      "Examples:\n"
       "  hogline stones --rig rig.yaml frame.jpg\n"
+      "  hogline stones --rig rig.yaml --sequence frame-*.jpg\n"
       "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
-      "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration.");
+      "Exit status: 0 all estimated, 1 some picture not estimated (of a sequence: none), 2 wrong use or\n"
+      "configuration.");
   return stones;
 }
 

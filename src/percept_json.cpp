@@ -35,21 +35,36 @@ void add_nothing(ordered_json& line) {
   }
 }
 
-ordered_json stone_json(const StoneSighting& s) {
+ordered_json stone_json(const StoneSighting& s, const TeamNames& names) {
   return {{"x_m", s.x_m},
           {"y_m", s.y_m},
-          {"team", team_name(s.team)},
+          {"team", team_name(s.team, names)},
           {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))}};
+}
+
+ordered_json stones_json(const std::vector<StoneSighting>& stones, const TeamNames& names) {
+  ordered_json all = ordered_json::array();
+  for (const StoneSighting& s : stones) all.push_back(stone_json(s, names));
+  return all;
+}
+
+void finish(ordered_json& line, const std::string& reason, double elapsed_ms) {
+  line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
+  line["reason"] = reason.empty() ? ordered_json(nullptr) : ordered_json(reason);
+}
+
+std::string text_of(const ordered_json& line) {
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
 
-const char* team_name(Team team) {
+std::string team_name(Team team, const TeamNames& names) {
   switch (team) {
     case Team::first:
-      return "red";
+      return names.first;
     case Team::second:
-      return "yellow";
+      return names.second;
     case Team::unknown:
       break;
   }
@@ -71,15 +86,25 @@ std::string pose_line(const std::string& image, const SheetPosePercept& percept,
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string stones_line(const std::string& image, const StonesPercept& percept, double elapsed_ms) {
+std::string stones_line(const std::string& image, const StonesPercept& percept, const TeamNames& names,
+                        double elapsed_ms) {
   ordered_json line;
   line["image"] = image;
   line["ok"] = percept.ok;
-  line["stones"] = ordered_json::array();
-  for (const StoneSighting& s : percept.stones) line["stones"].push_back(stone_json(s));
-  line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
-  line["reason"] = percept.reason.empty() ? ordered_json(nullptr) : ordered_json(percept.reason);
-  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  line["stones"] = stones_json(percept.stones, names);
+  finish(line, percept.reason, elapsed_ms);
+  return text_of(line);
+}
+
+std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,
+                                 const std::string& reason, const TeamNames& names, double elapsed_ms) {
+  ordered_json line;
+  line["pictures"] = pictures;
+  line["frames"] = frames;
+  line["ok"] = frames > 0;
+  line["stones"] = stones_json(stones, names);
+  finish(line, reason, elapsed_ms);
+  return text_of(line);
 }
 
 }  // namespace hogline

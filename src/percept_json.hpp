@@ -2,19 +2,31 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "vision/percepts/sheet_pose.hpp"
 #include "vision/percepts/stones.hpp"
 
 namespace hogline {
 
-/// red, yellow or unknown.
-const char* team_name(Team team);
+/// What the two teams are called.
+struct TeamNames {
+  std::string first = "red";
+  std::string second = "yellow";
+};
+
+/// One of the two names, or unknown.
+std::string team_name(Team team, const TeamNames& names);
 
 /// One line without its newline. Where the percept is not ok every estimate is null and `reason` says why.
 std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms);
 
 /// The same for the stones of a picture; an empty list where the percept is not ok.
-std::string stones_line(const std::string& image, const StonesPercept& percept, double elapsed_ms);
+std::string stones_line(const std::string& image, const StonesPercept& percept, const TeamNames& names,
+                        double elapsed_ms);
+
+/// The same for a robot that stands still: its pictures' stones together. `frames` of `pictures` counted.
+std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,
+                                 const std::string& reason, const TeamNames& names, double elapsed_ms);
 
 }  // namespace hogline

@@ -86,6 +86,8 @@ SheetPosePercept not_seen(const std::string& reason, Stamp stamp) {
 
 int run_pose(const PoseOptions& options) {
   check_use(options);
+  std::optional<DrawingFolder> drawings;
+  if (options.draw) drawings.emplace("--draw", *options.draw);
   const config::Rig rig = config::load_rig(options.rig);
   const vision::CameraSetup& setup = rig.camera(options.camera);
   const PictureReader next =
@@ -96,13 +98,13 @@ int run_pose(const PoseOptions& options) {
   while (const auto picture = next()) {
     cv::Mat drawing;
     const auto begin = std::chrono::steady_clock::now();
-    const SheetPosePercept percept =
-        picture->bgr.empty() ? not_seen(picture->problem, picture->stamp)
-                             : estimate(picture->bgr, picture->stamp, options.draw.empty() ? nullptr : &drawing);
+    const SheetPosePercept percept = picture->bgr.empty()
+                                         ? not_seen(picture->problem, picture->stamp)
+                                         : estimate(picture->bgr, picture->stamp, drawings ? &drawing : nullptr);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print("{}\n", pose_line(picture->name, percept, elapsed.count()));
     std::fflush(stdout);
-    if (!drawing.empty()) save_drawing(options.draw, picture->name, drawing);
+    if (!drawing.empty()) drawings->save(picture->name, drawing);
     all_estimated = all_estimated && percept.ok;
   }
   return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;

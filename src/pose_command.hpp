@@ -9,10 +9,10 @@ namespace hogline {
 
 struct PoseOptions {
   std::string rig;
-  std::string camera;             ///< near or low
-  bool sequence = false;          ///< the pictures are consecutive frames
-  std::optional<double> rate_hz;  ///< of the sequence; 60, or a video's own
-  std::string draw;               ///< a folder for pictures with what was seen drawn on them; empty for none
+  std::string camera;               ///< near or low
+  bool sequence = false;            ///< the pictures are consecutive frames
+  std::optional<double> rate_hz;    ///< of the sequence; 60, or a video's own
+  std::optional<std::string> draw;  ///< a folder for pictures with what was seen drawn on them; nothing: none
   std::vector<std::string> images;
 };
 

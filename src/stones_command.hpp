@@ -1,6 +1,7 @@
 // `hogline stones`: the stones on the sheet from pictures of the near camera.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@ namespace hogline {
 
 struct StonesOptions {
   std::string rig;
-  std::string draw;  ///< a folder for pictures with what was seen drawn on them; empty for none
+  std::optional<std::string> draw;  ///< a folder for pictures with what was seen drawn on them; nothing: none
+  bool sequence = false;            ///< the pictures are of one robot that stands still: their stones are averaged
   std::vector<std::string> images;
 };
 

@@ -13,10 +13,19 @@ constexpr double neutral_share = 0.30;
 constexpr double colourless = 0.35;  // share of the brightest channel that the channels of a grey differ by
 constexpr double faint = 0.12;       // difference of the channels, light against white ice
 constexpr double least_body_votes = 0.10;
+constexpr double clear_contrast = 0.35;  // between body and surroundings: no dark paint
+constexpr double least_handle_votes = 0.20;
 constexpr double most_votes = 0.66;  // more than chance gives: a handle without a colour needs them
 constexpr double least_handle_contrast = 0.15;
 constexpr double least_explained = 0.80;
+constexpr double few_votes = 0.40;
+constexpr double well_explained = 0.90;
 constexpr double most_residual = 0.25;
+constexpr int least_granite_pixels = 8;  // fewer say nothing of a colour
+constexpr double grip_height_m = 0.045;  // of a grip's bar over the handle's rim, about
+constexpr double grip_half_m = 0.06;     // across: half a bar
+constexpr double grip_reach_m = 0.16;    // along: a little height is much range
+constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
 constexpr double most_drift_m = 0.16;
 constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.28 m apart
@@ -28,28 +37,67 @@ double quality(const JudgedStone& s) { return s.candidate.votes * s.fit.explaine
 
 }  // namespace
 
+namespace {
+
+std::string doubt_of_granite(const Light& granite) {
+  const double light = brightness(granite);
+  if (light < darkest_granite) return "what should be granite is black";
+  if (light > lightest_granite) return "what should be granite is as light as ice";
+  const double spread = granite.maxCoeff() - granite.minCoeff();
+  if (spread > neutral_spread + neutral_share * light) return "what should be granite has a colour";
+  return {};
+}
+
+bool is_coloured(const Light& handle) {
+  const double spread = handle.maxCoeff() - handle.minCoeff();
+  return spread >= colourless * std::max(1e-3, handle.maxCoeff()) && spread >= faint;
+}
+
+// A handle that shows over nearer stones, its granite behind them: the handle alone must convince.
+std::string doubt_of_handle_alone(const StoneCandidate& candidate, const FittedStone& fit) {
+  if (brightness(fit.granite) > 1.35 * lightest_granite) return "ice, not granite, below what may be a grip";
+  if (candidate.handle_votes < least_lone_handle_votes) return "neither granite nor a clear handle";
+  if (!is_coloured(fit.handle)) return "neither granite nor a handle's colour";
+  return {};
+}
+
+}  // namespace
+
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another) {
   if (!fit.ok) return fit.reason;
   if (fit.visible < least_visible) return "too little of it can be seen";
-  const double light = brightness(fit.granite);
-  if (light < darkest_granite) return "what should be granite is black";
-  if (light > lightest_granite) return "what should be granite is as light as ice";
-  const double spread = fit.granite.maxCoeff() - fit.granite.minCoeff();
-  if (spread > neutral_spread + neutral_share * light) return "what should be granite has a colour";
-  if (fit.handle_contrast < least_handle_contrast) return "no handle stands out";
-  const double saturation = 1.0 - fit.handle.minCoeff() / std::max(1e-3, fit.handle.maxCoeff());
-  const double spread_of_handle = fit.handle.maxCoeff() - fit.handle.minCoeff();
-  if ((saturation < colourless || spread_of_handle < faint) && candidate.votes < most_votes)
-    return "a handle without colour, and few votes";
-  if (!behind_another && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
+  const bool handle_alone = behind_another && fit.granite_pixels < least_granite_pixels;
+  const std::string doubt = handle_alone ? doubt_of_handle_alone(candidate, fit) : doubt_of_granite(fit.granite);
+  if (!doubt.empty()) return doubt;
+  if (!handle_alone && fit.handle_contrast < least_handle_contrast) return "no handle stands out";
+  if (!is_coloured(fit.handle) && candidate.votes < most_votes) return "a handle without colour, and few votes";
+  if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
+  const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
+  if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
+  if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};
 }
 
+void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape) {
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty() || s.fit.granite_pixels >= least_granite_pixels) continue;
+    for (const JudgedStone& other : stones) {
+      if (&other == &s || !other.doubt.empty()) continue;
+      const Bearing bearing = bearing_of(other.fit.place, eye);
+      const double over_m = grip_height_m * bearing.range_m / (eye.z() - shape.handle_height_m - grip_height_m);
+      const Eigen::Vector2d off = s.fit.place - other.fit.place - over_m * bearing.away;
+      const bool over_it =
+          std::abs(off.dot(bearing.right)) < grip_half_m && std::abs(off.dot(bearing.away)) < grip_reach_m;
+      if (over_it) s.doubt = "it may be a nearer stone's grip";
+    }
+  }
+}
+
 // Votes are good to a pixel or two, so that ice and handle mix into what is taken for granite.
-bool is_hopeless(const FittedStone& glance) {
-  const double light = brightness(glance.granite);
+bool is_hopeless(const Light& granite) {
+  const double light = brightness(granite);
   return light < 0.5 * darkest_granite || light > 1.35 * lightest_granite;
 }
 
@@ -66,14 +114,15 @@ void part_overlapping(std::vector<JudgedStone>& stones) {
 void compare_granite(std::vector<JudgedStone>& stones) {
   std::vector<double> lights;
   for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) lights.push_back(brightness(s.fit.granite));
+    if (s.doubt.empty() && s.fit.granite_pixels >= least_granite_pixels) lights.push_back(brightness(s.fit.granite));
   }
   if (lights.size() < 3) return;
   const auto middle = lights.begin() + static_cast<std::ptrdiff_t>(lights.size() / 2);
   std::nth_element(lights.begin(), middle, lights.end());
   for (JudgedStone& s : stones) {
+    if (!s.doubt.empty() || s.fit.granite_pixels < least_granite_pixels) continue;
     const double ratio = brightness(s.fit.granite) / *middle;
-    if (s.doubt.empty() && (ratio > same_rock || ratio * same_rock < 1.0)) s.doubt = "its granite is not the others'";
+    if (ratio > same_rock || ratio * same_rock < 1.0) s.doubt = "its granite is not the others'";
   }
 }
 

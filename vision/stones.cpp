@@ -22,8 +22,6 @@ constexpr double same_place_m = 0.2;
 constexpr int most_rounds = 3;    // a stone behind one behind one
 constexpr double hiding_m = 1.2;  // a stone farther behind another is seen over it
 
-StoneFitOptions first_glance() { return {.iterations = 0, .fit_shape = false, .pixels = 80}; }
-
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
 
 // Something nearer stands in the way, or beside it.
@@ -54,19 +52,18 @@ struct StoneFinder::Impl {
 
   std::string unusable(const cv::Mat& image) const;
   StoneArea area(std::optional<double> sheet_width_m) const;
-  std::vector<JudgedStone> screen(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-                                  const std::vector<StoneCandidate>& candidates) const;
-  std::vector<NearerStone> look_behind(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-                                       const std::vector<NearerStone>& known, const std::vector<NearerStone>& newest,
-                                       std::vector<JudgedStone>& stones) const;
-  void refine(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-              std::vector<JudgedStone>& stones) const;
+  std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+  std::vector<NearerStone> look_behind(const StonePicture& picture, const std::vector<NearerStone>& known,
+                                       const std::vector<NearerStone>& newest, std::vector<JudgedStone>& stones);
+  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
   StoneSighting sighting(const JudgedStone& stone) const;
 
   StonesSetup setup;
   Lens lens;
   ResponseCurve response;
   StoneGroupFinder groups;
+  StoneVoter voter;
+  StoneFitter fitter;
 };
 
 StoneFinder::StoneFinder(const StonesSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
@@ -84,17 +81,20 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const StoneArea area = impl_->area(sheet_width_m);
 
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
+  const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
-  const auto candidates = vote_for_stones(image, groups, ice, impl_->response, camera, impl_->setup.shape,
-                                          {.area = area.wider(look_around_m)});
+  const std::vector<StoneCandidate>& candidates =
+      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m)});
 
-  std::vector<JudgedStone> stones = impl_->screen(image, ice, camera, candidates);
+  std::vector<JudgedStone> stones = impl_->screen(picture, candidates);
   compare_granite(stones);
   part_overlapping(stones);
+  doubt_grips(stones, picture.eye(), picture.shape);
 
-  impl_->refine(image, ice, camera, stones);
+  impl_->refine(picture, stones);
   compare_granite(stones);
   part_overlapping(stones);
+  doubt_grips(stones, picture.eye(), picture.shape);
 
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
@@ -131,20 +131,24 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
 
 // Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:
 // with the stones that are known by now left out of the picture.
-std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const WhiteLight& ice,
-                                                   const SheetCamera& camera,
-                                                   const std::vector<StoneCandidate>& candidates) const {
+std::vector<JudgedStone> StoneFinder::Impl::screen(const StonePicture& picture,
+                                                   const std::vector<StoneCandidate>& candidates) {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
-    if (granite_share(image, ice, response, camera, setup.shape, c.place) < least_granite) continue;
     if (is_taken(c.place, stones)) continue;
-    const auto glance = fit_stones(image, response, ice, camera, setup.shape, {c.place}, first_glance());
-    if (is_hopeless(glance.stones[0])) {
-      stones.push_back({c, glance.stones[0], "its colours are no stone's"});
+    if (granite_share(picture, c.place) < least_granite) {
+      stones.push_back({c, FittedStone(), "no granite below the handle"});
+      stones.back().fit.place = c.place;
       continue;
     }
-    const auto result = fit_stones(image, response, ice, camera, setup.shape, {c.place}, quick_look());
-    stones.push_back({c, result.stones[0], doubt_of(c, result.stones[0], false)});
+    fitter.begin(picture, {c.place}, quick_look());
+    if (is_hopeless(fitter.first_granite())) {
+      stones.push_back({c, FittedStone(), "its colours are no stone's"});
+      stones.back().fit.place = c.place;
+      continue;
+    }
+    const FittedStone& fit = fitter.run().stones[0];
+    stones.push_back({c, fit, doubt_of(c, fit, false)});
   }
   std::vector<NearerStone> known;
   for (const JudgedStone& s : stones) {
@@ -152,26 +156,26 @@ std::vector<JudgedStone> StoneFinder::Impl::screen(const cv::Mat& image, const W
   }
   std::vector<NearerStone> newest = known;
   for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
-    newest = look_behind(image, ice, camera, known, newest, stones);
+    newest = look_behind(picture, known, newest, stones);
     known.insert(known.end(), newest.begin(), newest.end());
   }
   return stones;
 }
 
 // What may be hidden by the newest of the known stones is fitted again; those that turn out to be stones are returned.
-std::vector<NearerStone> StoneFinder::Impl::look_behind(const cv::Mat& image, const WhiteLight& ice,
-                                                        const SheetCamera& camera,
+std::vector<NearerStone> StoneFinder::Impl::look_behind(const StonePicture& picture,
                                                         const std::vector<NearerStone>& known,
                                                         const std::vector<NearerStone>& newest,
-                                                        std::vector<JudgedStone>& stones) const {
+                                                        std::vector<JudgedStone>& stones) {
   StoneFitOptions options = careful_look();
   options.nearer = known;
-  const Eigen::Vector2d eye = camera.eMc().translation().head<2>();
+  const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<NearerStone> found;
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() || is_taken(s.candidate.place, stones)) continue;
     if (!may_be_hidden(s.candidate.place, newest, eye)) continue;
-    s.fit = fit_stones(image, response, ice, camera, setup.shape, {s.candidate.place}, options).stones[0];
+    fitter.begin(picture, {s.candidate.place}, options);
+    s.fit = fitter.run().stones[0];
     s.doubt = doubt_of(s.candidate, s.fit, true);
     if (s.doubt.empty()) found.push_back({s.fit.place, s.fit.handle});
   }
@@ -179,20 +183,20 @@ std::vector<NearerStone> StoneFinder::Impl::look_behind(const cv::Mat& image, co
 }
 
 // All together: stones that hide each other, and the shape they share.
-void StoneFinder::Impl::refine(const cv::Mat& image, const WhiteLight& ice, const SheetCamera& camera,
-                               std::vector<JudgedStone>& stones) const {
+void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedStone>& stones) {
   std::vector<Eigen::Vector2d> starts;
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) starts.push_back(s.fit.place);
   }
-  const auto result = fit_stones(image, response, ice, camera, setup.shape, starts);
+  fitter.begin(picture, starts, {});
+  const StoneFitResult& result = fitter.run();
   std::size_t next = 0;
   std::vector<NearerStone> others;
   for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;
     s.fit = result.stones[next++];
-    s.doubt = doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, camera.eMc().translation().head<2>()));
+    s.doubt = doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
   }
 }
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "src/config/config_error.hpp"
 #include "src/config/schema.hpp"
+#include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
 
 namespace hogline::config {
@@ -82,6 +84,47 @@ CameraSource Rig::source(std::string_view name) const {
   return found == sources.end() ? CameraSource{} : found->second;
 }
 
+namespace {
+
+constexpr double usual_second_hue_deg = 47.0;
+constexpr double least_hue_distance_deg = 30.0;  // nearer hues are not told apart in shade
+
+double hue_distance_deg(const std::array<TeamColour, 2>& teams) {
+  return std::abs(std::remainder(teams[0].hue_rad - teams[1].hue_rad, 2.0 * std::numbers::pi)) * 180.0 /
+         std::numbers::pi;
+}
+
+void check_teams(const std::array<TeamColour, 2>& teams, const Document& document) {
+  const auto refuse = [&](const std::string& value, const std::string& allowed) {
+    throw ConfigError(document.file, document.line_of("stone.teams"), "stone.teams", value, allowed);
+  };
+  if (teams[0].name == teams[1].name) refuse(teams[0].name, "must be two different names");
+  for (const TeamColour& t : teams) {
+    if (t.name == "unknown") refuse(t.name, "must not be what a team is called that can not be told");
+  }
+  if (hue_distance_deg(teams) < least_hue_distance_deg) {
+    refuse(teams[0].name + ", " + teams[1].name, "must be hues at least 30 degrees apart");
+  }
+}
+
+StoneHandle read_stone(const json& section, const Document& document) {
+  StoneHandle stone;
+  stone.radius_m = section.at("handle_radius_m");
+  stone.height_m = section.at("handle_height_m");
+  stone.rim_rounding_m = section.value("handle_rim_rounding_m", 0.0);
+  stone.teams = {{{"red", 0.0}, {"yellow", usual_second_hue_deg * std::numbers::pi / 180.0}}};
+  if (section.contains("teams")) {
+    for (std::size_t i = 0; i < stone.teams.size(); ++i) {
+      const Section team(section.at("teams").at(i));
+      stone.teams[i] = {team.word("name"), team.radians("hue_deg")};
+    }
+    check_teams(stone.teams, document);
+  }
+  return stone;
+}
+
+}  // namespace
+
 Rig load_rig(const std::string& path) { return parse_rig(read_file(path), path); }
 
 Rig parse_rig(std::string_view text, const std::string& name) {
@@ -92,14 +135,13 @@ Rig parse_rig(std::string_view text, const std::string& name) {
   for (const auto& [camera, section] : rig.at("cameras").items()) {
     if (section.contains("source")) sources.emplace(camera, read_camera_source(camera, section, document));
   }
-  return {
-      .file = name,
-      .near_camera = read_camera(rig, "near", document),
-      .low_camera = read_camera(rig, "low", document),
-      .far_camera = read_camera(rig, "far", document),
-      .sources = std::move(sources),
-      .can_interface = rig.contains("can") ? rig.at("can").at("interface").get<std::string>() : std::string(),
-      .stone = {.radius_m = rig.at("stone").at("handle_radius_m"), .height_m = rig.at("stone").at("handle_height_m")}};
+  return {.file = name,
+          .near_camera = read_camera(rig, "near", document),
+          .low_camera = read_camera(rig, "low", document),
+          .far_camera = read_camera(rig, "far", document),
+          .sources = std::move(sources),
+          .can_interface = rig.contains("can") ? rig.at("can").at("interface").get<std::string>() : std::string(),
+          .stone = read_stone(rig.at("stone"), document)};
 }
 
 }  // namespace hogline::config

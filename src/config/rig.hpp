@@ -1,6 +1,7 @@
 // The rig file: one robot, its cameras, and what is known of the sheet. The same schema for simulation and steel.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,10 +12,18 @@
 
 namespace hogline::config {
 
-/// The circular boundary of a stone's handle.
+/// What one team's handles look like.
+struct TeamColour {
+  std::string name;
+  double hue_rad = 0.0;  ///< in white light, on the colour circle: red 0, green 2 pi / 3
+};
+
+/// The circular boundary of a stone's handle, and the two teams' colours.
 struct StoneHandle {
   double radius_m = 0.0;
   double height_m = 0.0;
+  double rim_rounding_m = 0.0;  ///< 0: sharp
+  std::array<TeamColour, 2> teams;
 };
 
 struct Rig {

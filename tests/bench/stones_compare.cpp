@@ -138,9 +138,9 @@ struct Score {
 
   void print() {
     std::sort(ms.begin(), ms.end());
-    std::printf("%-34s recall %5.1f %%  precision %5.1f %%  error %5.1f mm RMS  %6.1f ms median\n", name,
-                100.0 * found / std::max(1, wanted), 100.0 * found / std::max(1, found + ghosts),
-                1e3 * std::sqrt(squares / std::max(1, found)), ms[ms.size() / 2]);
+    std::printf("| %s | %.1f %% | %.1f %% | %.1f mm | %.1f ms |\n", name, 100.0 * found / std::max(1, wanted),
+                100.0 * found / std::max(1, found + ghosts), 1e3 * std::sqrt(squares / std::max(1, found)),
+                ms[ms.size() / 2]);
   }
 };
 
@@ -156,11 +156,12 @@ void run(Score& score, const RandomBoard& board, const Method& method) {
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
   const int boards = argc > 1 ? std::max(1, std::atoi(argv[1])) : 40;
+  const int first = argc > 2 ? std::atoi(argv[2]) : 3001;
   Score own{"hogline"};
   Score circles{"cv::HoughCircles, rectified plane"};
   Score plain{"plain voting (Yoon et al.)"};
   int stones = 0;
-  for (int seed = 1; seed <= boards; ++seed) {
+  for (int seed = first; seed < first + boards; ++seed) {
     const RandomBoard board = hogline::testing::random_board(static_cast<std::uint64_t>(seed));
     const cv::Mat bgr = hogline::testing::render(board.scene);
     const Rectification maps(board);
@@ -173,7 +174,8 @@ int main(int argc, char** argv) {
     run(circles, board, [&] { return by_hough_circles(bgr, maps); });
     run(plain, board, [&] { return by_plain_votes(bgr, camera); });
   }
-  std::printf("%d boards, %d stones\n", boards, stones);
+  std::printf("%d boards from %d, %d stones\n\n", boards, first, stones);
+  std::printf("| method | recall | precision | error, RMS | median time |\n|---|--:|--:|--:|--:|\n");
   own.print();
   circles.print();
   plain.print();

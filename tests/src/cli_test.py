@@ -2,6 +2,7 @@
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
 import json
 import os
+import shutil
 import re
 import subprocess
 import sys
@@ -197,6 +198,58 @@ class Pose(unittest.TestCase):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
+
+
+class Stones(unittest.TestCase):
+    SKIP = os.path.join(SOURCE, "tests/data/skip/skip-12-002.jpg")
+
+    def test_prints_one_json_object_a_picture(self):
+        result = run("stones", "--rig", RIG, self.SKIP, self.SKIP)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([len(line["stones"]) for line in lines], [6, 6])
+        self.assertEqual(set(lines[0]["stones"][0]), {"x_m", "y_m", "team", "sigma_m"})
+
+    def test_a_sequence_is_averaged(self):
+        one = json.loads(run("stones", "--rig", RIG, self.SKIP).stdout)
+        result = run("stones", "--rig", RIG, "--sequence", self.SKIP, self.SKIP, SCENE, self.SKIP)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        line = json.loads(result.stdout)
+        self.assertEqual((line["pictures"], line["frames"]), (4, 4))
+        self.assertEqual(len(line["stones"]), len(one["stones"]))
+        self.assertAlmostEqual(line["stones"][0]["x_m"], one["stones"][0]["x_m"], delta=1e-9)
+        self.assertLess(line["stones"][0]["sigma_m"], one["stones"][0]["sigma_m"])
+
+    def test_teams_are_called_as_the_rig_calls_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(RIG, encoding="utf-8") as f:
+                text = f.read().replace("name: red,", "name: scarlet,", 1)
+            rig = os.path.join(folder, "rig.yaml")
+            with open(rig, "w", encoding="utf-8") as f:
+                f.write(text)
+            line = json.loads(run("stones", "--rig", rig, self.SKIP).stdout)
+        self.assertEqual({s["team"] for s in line["stones"]}, {"scarlet", "yellow"})
+
+
+class Draw(unittest.TestCase):
+    def test_a_folder_must_be_named(self):
+        for words in (("pose", "--rig", RIG, "--camera", "near", "--draw", "", SCENE),
+                      ("stones", "--rig", RIG, "--draw", "", SCENE), ("board", "--rig", RIG, "--out", "", SCENE)):
+            result = run(*words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn("folder", result.stderr)
+
+    def test_pictures_of_one_name_from_two_folders_are_two_drawings(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = []
+            for name in ("a", "b"):
+                os.mkdir(os.path.join(folder, name))
+                pictures.append(os.path.join(folder, name, "frame.jpg"))
+                shutil.copy(SCENE, pictures[-1])
+            out = os.path.join(folder, "out")
+            result = run("stones", "--rig", RIG, "--draw", out, *pictures)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(sorted(os.listdir(out)), ["b-frame.png", "frame.png"])
 
 
 class Doctor(unittest.TestCase):

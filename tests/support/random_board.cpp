@@ -62,13 +62,17 @@ bool add_stone(Dice& dice, const Limits& limits, bool touching, std::vector<Boar
 /// Everything that can stand before a stone.
 class Sight {
  public:
-  Sight(const vision::Pose& eMc, const hw::sim::Exposure& exposure) : eye_(eMc.translation()) {
+  explicit Sight(const RandomScene& scene)
+      : eye_(scene.eMc.translation()), camera_(vision::Lens(scene.setup.intrinsics), scene.eMc, scene.setup.ice) {
+    const hw::sim::Exposure& exposure = scene.exposure;
     for (const auto& look : exposure.stones) solids_.push_back(hw::sim::Solid::stone(look));
     stones_ = solids_.size();
     for (const auto& look : exposure.people) solids_.push_back(hw::sim::Solid::person(look));
   }
 
   bool sees(const Eigen::Vector3d& point, std::size_t own) const {
+    const auto pixel = camera_.project(point);
+    if (!pixel || !camera_.lens().in_picture(*pixel)) return false;
     const hw::sim::Ray ray{eye_.cast<float>(), (point - eye_).cast<float>()};
     for (std::size_t i = 0; i < solids_.size(); ++i) {
       if (i == own) continue;
@@ -80,28 +84,32 @@ class Sight {
 
  private:
   Eigen::Vector3d eye_;
+  vision::SheetCamera camera_;
   std::vector<hw::sim::Solid> solids_;
   std::size_t stones_ = 0;
 };
 
 void measure_visibility(RandomBoard& board) {
-  const Sight sight(board.scene.eMc, board.scene.exposure);
+  const Sight sight(board.scene);
   const Eigen::Vector3d eye = board.scene.eMc.translation();
   for (std::size_t i = 0; i < board.stones.size(); ++i) {
     BoardStone& s = board.stones[i];
     const vision::Bearing bearing = vision::bearing_of({s.x_m, s.y_m}, eye);
     int handle = 0;
     int body = 0;
+    int rim = 0;
     constexpr int points = 48;
     for (int k = 0; k < points; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / points;
       const double part = std::sqrt((k % 4 + 0.5) / 4.0);
       handle += sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.095 * part, 0.126, angle), i) ? 1 : 0;
+      rim += sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.095, 0.126, angle), i) ? 1 : 0;
       const double front = -std::numbers::pi * (k + 0.5) / points;
       body +=
           sight.sees(vision::circle_point({s.x_m, s.y_m}, bearing, 0.1455, 0.03 + 0.02 * (k % 4), front), i) ? 1 : 0;
     }
     s.handle_seen = static_cast<double>(handle) / points;
+    s.rim_seen = static_cast<double>(rim) / points;
     s.body_seen = static_cast<double>(body) / points;
   }
 }

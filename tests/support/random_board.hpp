@@ -15,6 +15,7 @@ struct BoardStone {
   double y_m = 0.0;
   bool red = false;          ///< else yellow
   double handle_seen = 1.0;  ///< share of the handle's face that nothing else hides
+  double rim_seen = 1.0;     ///< the same of its upper rim
   double body_seen = 1.0;    ///< the same of the body's front
 };
 

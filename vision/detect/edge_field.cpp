@@ -1,72 +1,81 @@
 #include "vision/detect/edge_field.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace hogline::vision {
 namespace {
 
-constexpr float scale = 4096.0F;    // of the stored gradients
 constexpr float full_edge = 0.22F;  // gradient, all channels, of a step of about half the light of ice
-constexpr float noise_floor = 0.05F;
-constexpr float brightest = 1.5F;  // lamps' reflections are cut off
+constexpr float brightest = 1.5F;   // lamps' reflections are cut off
+
+/// A tile and a pixel about it.
+template <int tile_px>
+struct Light {
+  static constexpr int wide = tile_px + 2;
+  std::array<float, wide * wide> root;
+
+  const float* row(int y) const { return &root[static_cast<std::size_t>(y * wide)]; }
+
+  void take(const cv::Mat& bgr, int x0, int y0, int channel, const std::array<float, 256>& roots) {
+    for (int y = 0; y < wide; ++y) {
+      const std::uint8_t* in = bgr.ptr<std::uint8_t>(std::clamp(y0 + y - 1, 0, bgr.rows - 1)) + channel;
+      float* out = &root[static_cast<std::size_t>(y * wide)];
+      for (int x = 0; x < wide; ++x) out[x] = roots[in[3 * std::clamp(x0 + x - 1, 0, bgr.cols - 1)]];
+    }
+  }
+};
+
+/// Binomial along the edge, differences across it; of one row.
+template <int tile_px>
+void gradient(const Light<tile_px>& light, int y, float* gx, float* gy) {
+  const float* a = light.row(y);
+  const float* b = light.row(y + 1);
+  const float* c = light.row(y + 2);
+  for (int x = 0; x < tile_px; ++x) {
+    gx[x] = a[x + 2] + 2.0F * b[x + 2] + c[x + 2] - a[x] - 2.0F * b[x] - c[x];
+    gy[x] = c[x] + 2.0F * c[x + 1] + c[x + 2] - a[x] - 2.0F * a[x + 1] - a[x + 2];
+  }
+}
 
 }  // namespace
 
-EdgeField::EdgeField(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response)
-    : bgr_(bgr), ice_(ice), columns_((bgr.cols + tile_px - 1) / tile_px) {
-  tiles_.resize(static_cast<std::size_t>(columns_ * ((bgr.rows + tile_px - 1) / tile_px)));
+void EdgeField::begin(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) {
+  bgr_ = &bgr;
+  ice_ = &ice;
+  width_ = bgr.cols;
+  height_ = bgr.rows;
+  columns_ = (bgr.cols + tile_px - 1) / tile_px;
+  tiles_.assign(static_cast<std::size_t>(columns_ * ((bgr.rows + tile_px - 1) / tile_px)), nullptr);
+  used_ = 0;
   for (std::size_t i = 0; i < 256; ++i) root_[i] = std::sqrt(response.linear(static_cast<std::uint8_t>(i)));
 }
 
-float EdgeField::edge(float x, float y, float normal_x, float normal_y) {
-  const int column = static_cast<int>(x + 0.5F);
-  const int row = static_cast<int>(y + 0.5F);
-  if (x < 0.0F || y < 0.0F || column >= bgr_.cols || row >= bgr_.rows) return 0.0F;
-  auto& tile = tiles_[static_cast<std::size_t>(row / tile_px * columns_ + column / tile_px)];
-  if (!tile) {
-    tile = std::make_unique<Tile>();
-    compute(column / tile_px, row / tile_px, *tile);
-  }
-  const Gradient& g = (*tile)[static_cast<std::size_t>(row % tile_px * tile_px + column % tile_px)];
-  float across = 0.0F;
-  float along = 0.0F;
-  for (std::size_t k = 0; k < 3; ++k) {
-    across += std::abs(g.x[k] * normal_x + g.y[k] * normal_y);
-    along += std::abs(g.y[k] * normal_x - g.x[k] * normal_y);
-  }
-  return std::clamp(((across - 0.5F * along) / scale - noise_floor) / full_edge, 0.0F, 1.0F);
-}
-
-// Binomial along the edge, differences across it.
-void EdgeField::compute(int column, int row, Tile& tile) const {
+const EdgeField::Tile* EdgeField::compute(int column, int row) {
+  if (used_ == memory_.size()) memory_.emplace_back();
+  Tile& tile = memory_[used_++];
   const int x0 = column * tile_px;
   const int y0 = row * tile_px;
-  const auto white = ice_.at(x0 + 0.5 * tile_px, y0 + 0.5 * tile_px);
-  constexpr int wide = tile_px + 2;
-  std::array<std::array<float, wide * wide>, 3> light;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float against = 1.0F / std::sqrt(white[k]);
-    for (int y = 0; y < wide; ++y) {
-      const std::uint8_t* in = bgr_.ptr<std::uint8_t>(std::clamp(y0 + y - 1, 0, bgr_.rows - 1));
-      for (int x = 0; x < wide; ++x) {
-        const int at = 3 * std::clamp(x0 + x - 1, 0, bgr_.cols - 1) + static_cast<int>(k);
-        light[k][static_cast<std::size_t>(y * wide + x)] = std::min(brightest, root_[in[at]] * against);
-      }
-    }
+  const auto white = ice_->at(x0 + 0.5 * tile_px, y0 + 0.5 * tile_px);
+  for (int k = 0; k < 3; ++k) {
+    const float against = 1.0F / std::sqrt(white[static_cast<std::size_t>(k)]);
+    std::array<float, 256> roots;
+    for (std::size_t i = 0; i < 256; ++i) roots[i] = 0.125F / full_edge * std::min(brightest, root_[i] * against);
+    Light<tile_px> light;
+    light.take(*bgr_, x0, y0, k, roots);
     for (int y = 0; y < tile_px; ++y) {
-      const float* a = &light[k][static_cast<std::size_t>(y * wide)];
-      const float* b = a + wide;
-      const float* c = b + wide;
-      Gradient* out = &tile[static_cast<std::size_t>(y * tile_px)];
-      for (int x = 0; x < tile_px; ++x) {
-        const float gx = a[x + 2] + 2.0F * b[x + 2] + c[x + 2] - a[x] - 2.0F * b[x] - c[x];
-        const float gy = c[x] + 2.0F * c[x + 1] + c[x + 2] - a[x] - 2.0F * a[x + 1] - a[x + 2];
-        out[x].x[k] = static_cast<std::int16_t>(0.125F * scale * gx);
-        out[x].y[k] = static_cast<std::int16_t>(0.125F * scale * gy);
+      std::array<float, tile_px> gx;
+      std::array<float, tile_px> gy;
+      gradient(light, y, gx.data(), gy.data());
+      float* all_x = &tile.x[static_cast<std::size_t>(y * tile_px)];
+      float* all_y = &tile.y[static_cast<std::size_t>(y * tile_px)];
+      for (std::size_t x = 0; x < tile_px; ++x) {
+        // Red paint on ice is an edge in blue and green, a red handle on granite one in red: the senses may differ.
+        const float sense = k > 0 && all_x[x] * gx[x] + all_y[x] * gy[x] < 0.0F ? -1.0F : 1.0F;
+        all_x[x] = (k > 0 ? all_x[x] : 0.0F) + sense * gx[x];
+        all_y[x] = (k > 0 ? all_y[x] : 0.0F) + sense * gy[x];
       }
     }
   }
+  tiles_[static_cast<std::size_t>(row * columns_ + column)] = &tile;
+  return &tile;
 }
 
 }  // namespace hogline::vision

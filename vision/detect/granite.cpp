@@ -5,12 +5,13 @@
 
 namespace hogline::vision {
 
-double granite_share(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
-                     const SheetCamera& camera, const StoneShape& shape, const Eigen::Vector2d& place) {
+double granite_share(const StonePicture& picture, const Eigen::Vector2d& place) {
+  const SheetCamera& camera = picture.camera;
+  const StoneShape& shape = picture.shape;
   const Bearing bearing = bearing_of(place, camera.eMc().translation());
   const auto centre = camera.project({place.x(), place.y(), shape.handle_height_m});
   if (!centre) return 0.0;
-  const auto white = ice.at(centre->x(), centre->y());
+  const auto white = picture.ice.at(centre->x(), centre->y());
   int granite = 0;
   int tried = 0;
   for (const double height_m : {0.05, 0.07, 0.09}) {
@@ -21,10 +22,10 @@ double granite_share(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCu
       const double angle = -std::numbers::pi * (0.12 + 0.76 * i / 7.0);
       const auto pixel = camera.project(circle_point(place, bearing, radius_m, height_m, angle));
       if (!pixel || !camera.lens().in_picture(*pixel, 1.0)) continue;
-      const std::uint8_t* p = bgr.ptr<std::uint8_t>(static_cast<int>(std::lround(pixel->y()))) +
+      const std::uint8_t* p = picture.bgr.ptr<std::uint8_t>(static_cast<int>(std::lround(pixel->y()))) +
                               3 * static_cast<int>(std::lround(pixel->x()));
-      granite += may_be_granite(response.linear(p[0]) / white[0], response.linear(p[1]) / white[1],
-                                response.linear(p[2]) / white[2])
+      granite += may_be_granite(picture.response.linear(p[0]) / white[0], picture.response.linear(p[1]) / white[1],
+                                picture.response.linear(p[2]) / white[2])
                      ? 1
                      : 0;
       ++tried;

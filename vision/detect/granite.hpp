@@ -2,10 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <opencv2/core/mat.hpp>
 
-#include "vision/detect/white_light.hpp"
-#include "vision/geometry/stone_shape.hpp"
+#include "vision/detect/stone_picture.hpp"
 
 namespace hogline::vision {
 
@@ -20,7 +18,6 @@ inline bool may_be_granite(float a, float b, float c) {
 }
 
 /// How much of the front of a stone's body, below its handle, may be granite: 0..1.
-double granite_share(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
-                     const SheetCamera& camera, const StoneShape& shape, const Eigen::Vector2d& place);
+double granite_share(const StonePicture& picture, const Eigen::Vector2d& place);
 
 }  // namespace hogline::vision

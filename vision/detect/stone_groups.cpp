@@ -14,12 +14,10 @@ namespace {
 constexpr double range_m = 13.0;             // from the body: the hog line and a little more
 constexpr double half_width_m = 4.5;         // to the side of the body: the sheet, off its middle and turned
 constexpr double grip_height_m = 0.07;       // over the handle's rim
-constexpr double least_granite = 0.12;       // share of the body below a handle; nearer stones may hide the rest
-constexpr double most_handle_granite = 0.6;  // share of the handle that may look like granite
-constexpr float big_px = 16.0F;              // half the width of a stone that is searched in steps
+constexpr float least_granite = 0.08F;       // share of the body below a handle; nearer stones may hide the rest
+constexpr float most_handle_granite = 0.6F;  // share of the handle that may look like granite
+constexpr float big_px = 24.0F;              // half the width of stones for which every fourth pixel is enough
 constexpr float margin_px = 4.0F;
-
-cv::Rect all_of(const cv::Mat& picture) { return {0, 0, picture.cols, picture.rows}; }
 
 // Overlapping boxes become one, until none overlap.
 std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
@@ -40,23 +38,10 @@ std::vector<cv::Rect> merged(std::vector<cv::Rect> boxes) {
   return boxes;
 }
 
-// Of a rectangle about (x, y): `side` to the left and right, from `above` to `below`.
-double share_in(const cv::Mat& sums, int x, int y, float side, float above, float below) {
-  const int x0 = std::clamp(x - static_cast<int>(side), 0, sums.cols - 1);
-  const int x1 = std::clamp(x + static_cast<int>(side) + 1, 0, sums.cols - 1);
-  const int y0 = std::clamp(y + static_cast<int>(above), 0, sums.rows - 1);
-  const int y1 = std::clamp(y + static_cast<int>(below) + 1, 0, sums.rows - 1);
-  const int area = (x1 - x0) * (y1 - y0);
-  if (area <= 0) return 0.0;
-  const int* upper = sums.ptr<int>(y0);
-  const int* lower = sums.ptr<int>(y1);
-  return static_cast<double>(lower[x1] - lower[x0] - upper[x1] + upper[x0]) / area;
-}
-
 }  // namespace
 
 StoneGroupFinder::StoneGroupFinder(const CameraSetup& setup, const StoneShape& shape)
-    : columns_((setup.intrinsics.width_px + block_px - 1) / block_px), top_(GroundView(setup).first_row(range_m) & ~1) {
+    : columns_((setup.intrinsics.width_px + block_px - 1) / block_px), top_(GroundView(setup).first_row(range_m) & ~3) {
   const SheetCamera camera(Lens(setup.intrinsics), eMb(PlanarPose{}) * bMc(setup.mount), setup.ice);
   const int rows = (setup.intrinsics.height_px + block_px - 1) / block_px;
   for (int r = 0; r < rows; ++r) {
@@ -65,6 +50,41 @@ StoneGroupFinder::StoneGroupFinder(const CameraSetup& setup, const StoneShape& s
       extents_.push_back(extent_at(camera, middle, shape));
     }
   }
+  choose_bands(setup.intrinsics.height_px / 4 * 4);
+}
+
+void StoneGroupFinder::choose_bands(int bottom) {
+  const int split = std::min(first_big_row(), bottom);
+  bands_ = {{{top_, split, 2, 0}, {split, bottom, 4, 0}}};
+  for (std::size_t i = 0; i < extents_.size(); ++i) {
+    Extent& e = extents_[i];
+    const int y = static_cast<int>(i) / columns_ * block_px;
+    Band& band = bands_[y < split ? 0 : 1];
+    e.choose_rectangles(static_cast<float>(band.step));
+    if (e.seen) band.below = std::max(band.below, static_cast<int>(e.below) / 4 * 4 + 4);
+  }
+}
+
+// From here down every stone is big; a multiple of four rows below the top.
+int StoneGroupFinder::first_big_row() const {
+  std::size_t small = 0;
+  for (std::size_t i = 0; i < extents_.size(); ++i) {
+    if (extents_[i].seen && extents_[i].half_width < big_px) small = i / static_cast<std::size_t>(columns_) + 1;
+  }
+  return std::max(top_, (static_cast<int>(small) * block_px - top_) / 4 * 4 + top_);
+}
+
+// What must be granite below the handle, and what must not be, in steps of so many pixels.
+void StoneGroupFinder::Extent::choose_rectangles(float step) {
+  if (!seen) return;
+  const auto in_steps = [step](float px) { return std::min(margin - 1, static_cast<int>(px / step)); };
+  const int side = in_steps(0.7F * half_width);
+  body = {-side, side + 1, in_steps(granite_top), in_steps(granite_top + 0.85F * (below - granite_top)) + 1};
+  least_body = static_cast<int>(std::ceil(least_granite * static_cast<float>(body.area())));
+  const int handle_side = in_steps(0.4F * half_width);
+  const int depth = in_steps(0.5F * granite_top);
+  handle = {-handle_side, handle_side + 1, -depth, depth + 1};
+  most_handle = static_cast<int>(most_handle_granite * static_cast<float>(handle.area()));
 }
 
 StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, const Eigen::Vector2d& pixel,
@@ -86,94 +106,94 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
   Extent e;
   e.seen = true;
   e.half_width = static_cast<float>(std::abs(side->x() - pixel.x()));
-  e.side = 0.7F * e.half_width;
-  e.granite_top = static_cast<float>(begin->y() - pixel.y());
   e.below = static_cast<float>(foot->y() - pixel.y());
-  e.granite_bottom = e.granite_top + 0.85F * (e.below - e.granite_top);
-  e.handle_side = 0.4F * e.half_width;
-  e.handle_depth = 0.5F * e.granite_top;
+  e.granite_top = static_cast<float>(begin->y() - pixel.y());
   e.above = static_cast<float>(grip->y() - pixel.y());
   return e;
 }
 
-StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const {
+StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) {
   StoneGroups groups;
   groups.top = top_;
-  groups.centres = possible_centres(granite(bgr, ice, response));
-  groups.boxes = boxes_of(groups.centres, bgr.size());
+  groups.centres.create((bgr.rows - top_) / 2, bgr.cols / 2, CV_8UC1);
+  groups.centres.setTo(0);
+  cells_.create((bgr.rows - top_) / cell_px + 1, bgr.cols / cell_px + 1, CV_8UC1);
+  cells_.setTo(0);
+  for (const Band& band : bands_) {
+    if (band.bottom <= band.top) continue;
+    find_granite(band, bgr, ice, response);
+    mark_centres(band, bgr.cols, groups.centres);
+  }
+  groups.boxes = boxes_of(bgr.size());
   return groups;
 }
 
-// At half size, 1 where a pixel may be granite.
-cv::Mat StoneGroupFinder::granite(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const {
-  const cv::Mat lower = bgr.rowRange(top_, bgr.rows);
-  cv::Mat half;
-  cv::resize(lower, half, cv::Size(lower.cols / 2, lower.rows / 2), 0.0, 0.0, cv::INTER_AREA);
-  cv::Mat mask(half.size(), CV_8UC1);
-  constexpr int run = 16;
-  for (int r = 0; r < half.rows; ++r) {
-    const std::uint8_t* in = half.ptr<std::uint8_t>(r);
-    std::uint8_t* out = mask.ptr<std::uint8_t>(r);
-    for (int begin = 0; begin < half.cols; begin += run) {
-      const int row = top_ + 2 * r;
-      const int last = std::min(2 * (begin + run), bgr.cols) - 1;
-      if (!extent(2 * begin, row).seen && !extent(last, row).seen) {
-        std::fill(out + begin, out + std::min(begin + run, half.cols), std::uint8_t{0});
-        continue;
-      }
-      const auto white = ice.at(2.0 * begin + run, row);
+// In steps of `step` pixels, 1 where the mean of four pixels may be granite; with a margin of nothing about it.
+void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice,
+                                    const ResponseCurve& response) {
+  const int rows = (std::min(band.bottom + band.below, bgr.rows & ~3) - band.top) / band.step;
+  const int columns = bgr.cols / band.step;
+  granite_.create(rows + 2 * margin, columns + 2 * margin, CV_8UC1);
+  granite_.setTo(0);
+  const int run = 32 / band.step;  // columns that share their white
+  for (int r = 0; r < rows; ++r) {
+    const int y = band.top + band.step * r;
+    std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
+    for (int begin = 0; begin < columns; begin += run) {
+      const int end = std::min(begin + run, columns);
+      if (!extent(band.step * begin, y).seen && !extent(band.step * end - 1, y).seen) continue;
+      const auto white = ice.at(band.step * (begin + end) / 2, y);
       const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
-      for (int c = begin; c < std::min(begin + run, half.cols); ++c) {
-        const float b = response.linear(in[3 * c]) * scale[0];
-        const float g = response.linear(in[3 * c + 1]) * scale[1];
-        const float red = response.linear(in[3 * c + 2]) * scale[2];
-        out[c] = may_be_granite(b, g, red) ? 1 : 0;
+      const std::uint8_t* upper = bgr.ptr<std::uint8_t>(y) + 3 * band.step * begin;
+      const std::uint8_t* lower = bgr.ptr<std::uint8_t>(y + 1) + 3 * band.step * begin;
+      for (int c = begin; c < end; ++c, upper += 3 * band.step, lower += 3 * band.step) {
+        const auto light = [&](int k) {
+          const int sum = upper[k] + upper[k + 3] + lower[k] + lower[k + 3] + 2;
+          return response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
+        };
+        out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
       }
     }
   }
-  return mask;
+  cv::integral(granite_, sums_, CV_32S);
 }
 
-// Where stones are big every second pixel in both directions, for itself and its neighbours.
-cv::Mat StoneGroupFinder::possible_centres(const cv::Mat& granite) const {
-  cv::Mat sums;
-  cv::integral(granite, sums, CV_32S);
-  cv::Mat centres(granite.size(), CV_8UC1, cv::Scalar(0));
-  for (int r = 0; r < granite.rows; ++r) {
-    for (int c = 0; c < granite.cols;) {
-      const Extent& e = extent(2 * c, top_ + 2 * r);
-      const int step = e.seen && e.half_width > big_px ? 2 : 1;
-      const bool wanted = e.seen && (step == 1 || r % 2 == 0);
-      if (wanted && may_be_centre(e, sums, c, r)) centres(cv::Rect(c, r, step, step) & all_of(centres)).setTo(255);
-      c += step;
+// Marks are of half the picture's size, cells of an eighth.
+void StoneGroupFinder::mark_centres(const Band& band, int columns, cv::Mat& centres) {
+  const int size = band.step / 2;
+  const int row_length = static_cast<int>(sums_.step1());
+  for (int y = band.top; y < band.bottom; y += band.step) {
+    const int* sums = sums_.ptr<int>((y - band.top) / band.step + margin) + margin;
+    for (int c = 0; c < columns / band.step; ++c) {
+      const Extent& e = extent(band.step * c, y);
+      if (!e.seen || e.body.count(sums + c, row_length) < e.least_body) continue;
+      if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
+      for (int i = 0; i < size; ++i) {
+        std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
+        std::fill(out, out + size, std::uint8_t{255});
+      }
+      cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;
     }
   }
-  return centres;
 }
 
-bool StoneGroupFinder::may_be_centre(const Extent& e, const cv::Mat& sums, int c, int r) {
-  const double body = share_in(sums, c, r, 0.5F * e.side, 0.5F * e.granite_top, 0.5F * e.granite_bottom);
-  if (body < least_granite) return false;
-  const double handle = share_in(sums, c, r, 0.5F * e.handle_side, -0.5F * e.handle_depth, 0.5F * e.handle_depth);
-  return handle <= most_handle_granite;
-}
-
-std::vector<cv::Rect> StoneGroupFinder::boxes_of(const cv::Mat& centres, cv::Size picture) const {
+std::vector<cv::Rect> StoneGroupFinder::boxes_of(cv::Size picture) const {
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat middles;
-  const int count = cv::connectedComponentsWithStats(centres, labels, stats, middles, 8, CV_32S);
+  const int count = cv::connectedComponentsWithStats(cells_, labels, stats, middles, 8, CV_32S);
   std::vector<cv::Rect> boxes;
   for (int i = 1; i < count; ++i) {
-    const cv::Rect half(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    const int y0 = top_ + 2 * half.y;
-    const int y1 = std::min(top_ + 2 * half.br().y, picture.height) - 1;
-    const Extent& low = extent(std::min(2 * half.x + half.width, picture.width - 1), y1);
+    const cv::Rect cells(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                         stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const int y0 = top_ + cell_px * cells.y;
+    const int y1 = std::min(top_ + cell_px * cells.br().y, picture.height) - 1;
+    const Extent& low = extent(std::min(cell_px * cells.x + cell_px * cells.width / 2, picture.width - 1), y1);
     const auto side = static_cast<int>(low.half_width + margin_px);
     const int above = static_cast<int>(std::abs(low.above) + margin_px);
     const int below = static_cast<int>(low.below + margin_px);
-    const cv::Rect whole(cv::Point(2 * half.x - side, y0 - above), cv::Point(2 * half.br().x + side, y1 + below));
+    const cv::Rect whole(cv::Point(cell_px * cells.x - side, y0 - above),
+                         cv::Point(cell_px * cells.br().x + side, y1 + below));
     boxes.push_back(whole & cv::Rect({0, 0}, picture));
   }
   return merged(boxes);

@@ -2,7 +2,7 @@
 // step): where there is as much granite as a stone's body shows below a handle.
 #pragma once
 
-#include <memory>
+#include <array>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -15,17 +15,18 @@ namespace hogline::vision {
 struct StoneGroups {
   std::vector<cv::Rect> boxes;  ///< pixels, handles and grips included, not overlapping
   cv::Mat centres;              ///< CV_8UC1 at half size from row `top`: 255 where a handle's centre may be
-  int top = 0;                  ///< even
+  int top = 0;                  ///< a multiple of four
 };
 
-/// Needs the mount only. Granite is neutral grey, darker than ice and lighter than black: it is told from paint by its
-/// colour, from lines and dividers by its extent. Trousers and shadows may pass; what is in a box is judged later.
+/// Needs the mount only. Far stones are looked for at half the picture's size, near ones at a quarter. Granite is
+/// neutral grey, darker than ice and lighter than black: it is told from paint by its colour, from lines and dividers
+/// by its extent. Trousers and shadows may pass; what is in a box is judged later.
 class StoneGroupFinder {
  public:
   StoneGroupFinder(const CameraSetup& setup, const StoneShape& shape);
 
   /// Precondition: CV_8UC3 of the setup's size.
-  StoneGroups find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const;
+  StoneGroups find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
 
   /// The first row in which ice of interest can lie.
   int top() const { return top_; }
@@ -33,31 +34,55 @@ class StoneGroupFinder {
  private:
   static constexpr int block_px = 16;
 
+  static constexpr int cell_px = 8;
+  static constexpr int margin = 48;  ///< steps; beyond any rectangle below
+
+  /// Relative to a place, in a band's steps; ends are exclusive.
+  struct Rectangle {
+    int left = 0, right = 0, top = 0, bottom = 0;
+    int area() const { return (right - left) * (bottom - top); }
+    int count(const int* sums, int row) const {
+      return sums[bottom * row + right] - sums[bottom * row + left] - sums[top * row + right] + sums[top * row + left];
+    }
+  };
+
   /// What a stone covers whose handle's centre is in the middle of a block, relative to it, in pixels.
   struct Extent {
     bool seen = false;
-    float side = 0.0F;         ///< half the width of the granite that must be there
-    float granite_top = 0.0F;  ///< from the handle down
-    float granite_bottom = 0.0F;
-    float handle_side = 0.0F;  ///< of a part of the handle's face
-    float handle_depth = 0.0F;
-    float half_width = 0.0F;  ///< of the whole stone
-    float above = 0.0F;       ///< the grip's top
-    float below = 0.0F;       ///< the body's foot
+    float half_width = 0.0F;   ///< of the whole stone
+    float granite_top = 0.0F;  ///< where the handle ends
+    float above = 0.0F;        ///< the grip's top
+    float below = 0.0F;        ///< the body's foot
+    Rectangle body, handle;
+    int least_body = 0;   ///< granite in the body's rectangle, steps
+    int most_handle = 0;  ///< and in the handle's
+
+    void choose_rectangles(float step);
+  };
+
+  /// Rows of the picture that are looked at in steps of so many pixels.
+  struct Band {
+    int top, bottom, step;
+    int below;  ///< rows below that its stones reach into
   };
 
   Extent extent_at(const SheetCamera& camera, const Eigen::Vector2d& pixel, const StoneShape& shape) const;
   const Extent& extent(int x, int y) const {
     return extents_[static_cast<std::size_t>(y / block_px * columns_ + x / block_px)];
   }
-  cv::Mat granite(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) const;
-  static bool may_be_centre(const Extent& e, const cv::Mat& sums, int c, int r);
-  cv::Mat possible_centres(const cv::Mat& granite) const;
-  std::vector<cv::Rect> boxes_of(const cv::Mat& centres, cv::Size picture) const;
+  void choose_bands(int bottom);
+  int first_big_row() const;
+  void find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
+  void mark_centres(const Band& band, int columns, cv::Mat& centres);
+  std::vector<cv::Rect> boxes_of(cv::Size picture) const;
 
   int columns_;
   int top_;
   std::vector<Extent> extents_;
+  std::array<Band, 2> bands_;
+  cv::Mat granite_;
+  cv::Mat sums_;
+  cv::Mat cells_;  ///< 255 where a centre may be
 };
 
 }  // namespace hogline::vision

@@ -4,14 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cmath>
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "vision/detect/edge_field.hpp"
 #include "vision/detect/stone_groups.hpp"
-#include "vision/detect/white_light.hpp"
-#include "vision/geometry/stone_shape.hpp"
+#include "vision/detect/stone_outline.hpp"
+#include "vision/detect/stone_picture.hpp"
 
 namespace hogline::vision {
 
@@ -23,26 +21,45 @@ struct StoneCandidate {
   double body_votes = 0.0;
 };
 
-/// Where on the sheet stones are looked for, in e.
-struct StoneArea {
-  double half_width_m = 2.7;
-  double min_y_m = -4.0;
-  double max_y_m = 7.0;
-  bool contains(const Eigen::Vector2d& place) const {
-    return std::abs(place.x()) <= half_width_m && place.y() >= min_y_m && place.y() <= max_y_m;
-  }
-  StoneArea wider(double by_m) const { return {half_width_m + by_m, min_y_m - by_m, max_y_m + by_m}; }
-};
-
 struct StoneVoteOptions {
   StoneArea area;
   double least_votes = 0.26;
   std::size_t most_candidates = 120;
 };
 
-/// Candidates of all boxes, by falling votes.
-std::vector<StoneCandidate> vote_for_stones(const cv::Mat& bgr, const StoneGroups& groups, const WhiteLight& ice,
-                                            const ResponseCurve& response, const SheetCamera& camera,
-                                            const StoneShape& shape, const StoneVoteOptions& options = {});
+/// Keeps its memory from picture to picture.
+class StoneVoter {
+ public:
+  /// Candidates of all boxes, by falling votes. They stay until the next call.
+  const std::vector<StoneCandidate>& find(const StonePicture& picture, const StoneGroups& groups,
+                                          const StoneVoteOptions& options = {});
+
+ private:
+  struct Votes {
+    float handle = 0.0F;
+    float body = 0.0F;
+    float all() const;
+  };
+  /// A place of the picture and its votes.
+  struct Ballot {
+    int x, y;
+    Votes votes;
+    float sum;  ///< votes.all()
+    const StoneOutline* outline;
+    bool removed_by(const Ballot& peak) const;
+  };
+
+  bool worth_asking(const StoneOutline& outline, float x, float y);
+  Votes votes_for(const StoneOutline& outline, float x, float y);
+  void vote(int x, int y, float least, const StoneOutline& outline);
+  void collect(const StoneGroups& groups, float least);
+  Ballot best_near(const Ballot& peak);
+
+  EdgeField field_;
+  OutlineTable outlines_;
+  std::vector<Ballot> ballots_;
+  std::vector<Ballot> peaks_;
+  std::vector<StoneCandidate> candidates_;
+};
 
 }  // namespace hogline::vision

@@ -10,6 +10,8 @@ constexpr int step_px = 4;
 constexpr double percentile = 0.65;
 constexpr int reach_blocks = 2;  // paint fills at most so many blocks in a row
 constexpr float least_light = 0.004F;
+constexpr double bright_share = 0.3;  // of the blocks: white ice is among them
+constexpr float least_share = 0.05F;
 
 std::uint8_t high_level(const cv::Mat& bgr, const cv::Rect& block, int channel) {
   std::array<int, 256> histogram{};
@@ -22,6 +24,35 @@ std::uint8_t high_level(const cv::Mat& bgr, const cv::Rect& block, int channel) 
   std::size_t level = 0;
   while (level < 255 && (seen += histogram[level]) < percentile * count) ++level;
   return static_cast<std::uint8_t>(level);
+}
+
+float sum_of(const std::array<float, 3>& light) { return light[0] + light[1] + light[2]; }
+
+// What colour white ice is: the middle one of the brighter blocks, for there is more ice than paint and nothing is
+// brighter. Shares of the brightest channel.
+std::array<float, 3> white_of(const std::vector<std::array<float, 3>>& blocks) {
+  std::vector<std::array<float, 3>> bright = blocks;
+  const auto rank = static_cast<std::ptrdiff_t>(static_cast<double>(bright.size()) * (1.0 - bright_share));
+  std::nth_element(bright.begin(), bright.begin() + rank, bright.end(),
+                   [](const auto& a, const auto& b) { return sum_of(a) < sum_of(b); });
+  bright.erase(bright.begin(), bright.begin() + rank);
+  std::array<float, 3> white{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto middle = bright.begin() + static_cast<std::ptrdiff_t>(bright.size() / 2);
+    const auto share = [k](const std::array<float, 3>& light) { return light[k] / sum_of(light); };
+    std::nth_element(bright.begin(), middle, bright.end(),
+                     [&](const auto& a, const auto& b) { return share(a) < share(b); });
+    white[k] = share(*middle);
+  }
+  const float most = std::max({white[0], white[1], white[2]});
+  for (float& part : white) part = std::max(least_share, part / most);
+  return white;
+}
+
+// A block that paint fills: white would be as bright in every channel as the paint is in its brightest.
+void whiten(const std::array<float, 3>& white, std::array<float, 3>& light) {
+  const float level = std::max({light[0] / white[0], light[1] / white[1], light[2] / white[2]});
+  for (std::size_t k = 0; k < 3; ++k) light[k] = level * white[k];
 }
 
 }  // namespace
@@ -41,6 +72,8 @@ WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int to
       }
     }
   }
+  const std::array<float, 3> white = white_of(own);
+  for (auto& light : own) whiten(white, light);
   light_ = own;
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < columns_; ++c) {
@@ -48,8 +81,7 @@ WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int to
       for (int y = std::max(0, r - reach_blocks); y <= std::min(rows_ - 1, r + reach_blocks); ++y) {
         for (int x = std::max(0, c - reach_blocks); x <= std::min(columns_ - 1, c + reach_blocks); ++x) {
           const auto& other = own[static_cast<std::size_t>(y * columns_ + x)];
-          // The whitest as a whole: channel by channel, colours of paint would mix.
-          if (other[0] + other[1] + other[2] > best[0] + best[1] + best[2]) best = other;
+          if (sum_of(other) > sum_of(best)) best = other;
         }
       }
     }

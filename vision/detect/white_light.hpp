@@ -15,7 +15,8 @@ class WhiteLight {
   static constexpr int block_px = 64;
 
   /// Looks at every fourth pixel from row `top` down. A high percentile of each block, which lamps' reflections do not
-  /// reach, and the best of the blocks around, for those that paint fills. Precondition: CV_8UC3, not empty.
+  /// reach, in the one colour that white ice has in this light, and the best of the blocks around, for those that paint
+  /// fills. Precondition: CV_8UC3, not empty.
   WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top);
 
   /// Linear light of white ice at a pixel: blue, green, red; never zero.

@@ -14,24 +14,23 @@ namespace {
 constexpr double thickness_sigma_m = 0.008;
 constexpr double radius_sigma_m = 0.0025;
 constexpr double half_height_sigma_m = 0.004;
-constexpr double handle_height_sigma_m = 0.001;  // of a measurement on site, and of what "the rim" of a round edge is
-constexpr double handle_radius_sigma_m = 0.001;
-constexpr double correlated = 4.0;      // neighbouring pixels share their noise: colour mosaic, compression
-constexpr double rim_doubt_m = 0.0020;  // how high a rounded rim seems, against what was measured on site
+constexpr double handle_radius_sigma_m = 0.001;  // of a measurement on site, and of what the edge of a round rim is
+constexpr double correlated = 4.0;               // neighbouring pixels share their noise: colour mosaic, compression
+constexpr double rim_doubt_m = 0.0020;           // how high a rounded rim seems, against what was measured on site
 constexpr double wall_light_sigma = 0.15;
 constexpr double blur_sigma_px = 0.2;
 constexpr double colour_blur_sigma_px = 0.5;
 
 SharedVector prior_weights() {
   SharedVector sigma;
-  sigma << thickness_sigma_m, radius_sigma_m, half_height_sigma_m, handle_height_sigma_m, handle_radius_sigma_m,
-      wall_light_sigma, blur_sigma_px, colour_blur_sigma_px;
+  sigma << thickness_sigma_m, radius_sigma_m, half_height_sigma_m, handle_radius_sigma_m, wall_light_sigma,
+      blur_sigma_px, colour_blur_sigma_px;
   return sigma.cwiseAbs2().cwiseInverse();
 }
 
 SharedVector longest_step() {
   SharedVector step;
-  step << 0.004, 0.004, 0.004, 0.003, 0.003, 0.2, 0.15, 0.3;
+  step << 0.004, 0.004, 0.004, 0.003, 0.2, 0.15, 0.3;
   return step;
 }
 
@@ -53,126 +52,101 @@ struct Parts {
   bool determined() const { return own.allFinite() && own.determinant() > 1e-6 * own.trace() * own.trace(); }
 };
 
-/// All stones of a picture and what they share.
-class JointFit {
- public:
-  JointFit(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice, const SheetCamera& camera,
-           const StoneShape& shape, const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options)
-      : options_(options) {
-    look_.shape = shape;
-    look_.shape.handle_height_m -= shape.rim_rounding_m;
-    prior_ = numbers_of(look_);
-    for (const Eigen::Vector2d& start : starts) {
-      const auto pixel = camera.project({start.x(), start.y(), shape.handle_height_m});
-      Light white = Light::Ones();
-      if (pixel) {
-        const auto light = ice.at(pixel->x(), pixel->y());
-        white = Light(double{light[0]}, double{light[1]}, double{light[2]});
-      }
-      stones_.emplace_back(PatchSource{bgr, response, white}, camera, shape, start, options.pixels);
-    }
-  }
-
-  void run() {
-    settle_surroundings();
-    for (StoneModel& s : stones_) s.find_colours(look_);
-    for (int i = 0; i < options_.iterations; ++i) {
-      if (i % 2 == 0) settle_surroundings();
-      for (StoneModel& s : stones_) s.linearise(look_);
-      step(i >= 1 && options_.fit_shape);
-    }
-    for (StoneModel& s : stones_) s.linearise(look_);
-  }
-
-  StoneFitResult result() const {
-    StoneFitResult r;
-    r.look = look_;
-    const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();
-    for (const StoneModel& s : stones_) r.stones.push_back(fitted(s, shared_covariance));
-    return r;
-  }
-
- private:
-  static FittedStone fitted(const StoneModel& s, const SharedMatrix& shared_covariance) {
-    FittedStone f;
-    f.place = s.place();
-    f.handle = s.handle_colour();
-    f.granite = s.granite_colour();
-    f.residual = s.residual();
-    f.explained = s.explained();
-    f.visible = s.visible();
-    f.handle_contrast = (f.handle - f.granite).norm();
-    f.body_contrast = (f.granite - s.behind_colour()).norm();
-    const Parts parts(s);
-    f.ok = s.enough() && f.place.allFinite() && parts.determined();
-    if (!f.ok) {
-      f.reason = "too little of it can be seen";
-      return f;
-    }
-    const Eigen::Matrix2d own = parts.own.inverse();
-    const Eigen::Matrix<double, 2, shared_numbers> lever = own * parts.lever;
-    f.covariance = correlated * own + lever * shared_covariance * lever.transpose() + s.unknowable(rim_doubt_m);
+FittedStone fitted(const StoneModel& s, const SharedMatrix& shared_covariance) {
+  FittedStone f;
+  f.place = s.place();
+  f.handle = s.handle_colour();
+  f.granite = s.granite_colour();
+  f.granite_pixels = s.granite_pixels();
+  f.residual = s.residual();
+  f.explained = s.explained();
+  f.visible = s.visible();
+  f.handle_contrast = (f.handle - f.granite).norm();
+  f.body_contrast = (f.granite - s.behind_colour()).norm();
+  const Parts parts(s);
+  f.ok = s.enough() && f.place.allFinite() && parts.determined();
+  if (!f.ok) {
+    f.reason = "too little of it can be seen";
     return f;
   }
-
-  void settle_surroundings() {
-    for (StoneModel& s : stones_) s.look_behind(look_);
-    for (StoneModel& s : stones_) {
-      for (const StoneModel& other : stones_) {
-        if (&other != &s) s.hide_behind({other.place(), other.handle_colour()}, look_);
-      }
-      for (const NearerStone& nearer : options_.nearer) s.hide_behind(nearer, look_);
-    }
-  }
-
-  SharedMatrix shared_normal(bool with_stones) const {
-    SharedMatrix normal = prior_weights().asDiagonal();
-    if (!with_stones) return normal;
-    for (const StoneModel& s : stones_) {
-      const Parts parts(s);
-      if (!s.enough() || !parts.determined()) continue;
-      normal += parts.shared - parts.lever.transpose() * parts.own.inverse() * parts.lever;
-    }
-    return normal;
-  }
-
-  SharedVector shared_step() const {
-    SharedVector right = prior_weights().cwiseProduct(prior_ - numbers_of(look_));
-    for (const StoneModel& s : stones_) {
-      const Parts parts(s);
-      if (!s.enough() || !parts.determined()) continue;
-      right += parts.shared_right - parts.lever.transpose() * parts.own.inverse() * parts.own_right;
-    }
-    const SharedVector step = shared_normal(true).ldlt().solve(right);
-    if (!step.allFinite()) return SharedVector::Zero();
-    return step.cwiseMin(longest_step()).cwiseMax(-longest_step());
-  }
-
-  void step(bool with_shared) {
-    const SharedVector shared = with_shared ? shared_step() : SharedVector::Zero();
-    for (StoneModel& s : stones_) {
-      const Parts parts(s);
-      if (!s.enough() || !parts.determined()) continue;
-      const Eigen::Vector2d own = parts.own.inverse() * (parts.own_right - parts.lever * shared);
-      if (own.allFinite()) s.move(own);
-    }
-    look_ = look_of(numbers_of(look_) + shared);
-  }
-
-  StoneFitOptions options_;
-  SharedLook look_;
-  SharedVector prior_;
-  std::vector<StoneModel> stones_;
-};
+  const Eigen::Matrix2d own = parts.own.inverse();
+  const Eigen::Matrix<double, 2, shared_numbers> lever = own * parts.lever;
+  f.covariance = correlated * own + lever * shared_covariance * lever.transpose() + s.unknowable(rim_doubt_m);
+  return f;
+}
 
 }  // namespace
 
-StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
-                          const SheetCamera& camera, const StoneShape& shape,
-                          const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options) {
-  JointFit fit(bgr, response, ice, camera, shape, starts, options);
-  fit.run();
-  return fit.result();
+void StoneFitter::begin(const StonePicture& picture, const std::vector<Eigen::Vector2d>& starts,
+                        const StoneFitOptions& options) {
+  options_ = options;
+  look_ = {};
+  look_.shape = picture.shape;
+  prior_ = numbers_of(look_);
+  stones_.clear();
+  for (const Eigen::Vector2d& start : starts) stones_.emplace_back(picture, look_, start, options.pixels);
+  settle_surroundings();
+  for (StoneModel& s : stones_) s.find_colours(look_);
+}
+
+Light StoneFitter::first_granite() const { return stones_.empty() ? Light::Zero() : stones_.front().granite_colour(); }
+
+const StoneFitResult& StoneFitter::run() {
+  for (int i = 0; i < options_.iterations; ++i) {
+    if (i % 2 == 0) settle_surroundings();
+    for (StoneModel& s : stones_) s.linearise(look_);
+    step(i >= 1 && options_.fit_shape);
+  }
+  for (StoneModel& s : stones_) s.linearise(look_);
+  result_.look = look_;
+  result_.stones.clear();
+  const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();
+  for (const StoneModel& s : stones_) result_.stones.push_back(fitted(s, shared_covariance));
+  return result_;
+}
+
+void StoneFitter::settle_surroundings() {
+  for (StoneModel& s : stones_) s.look_behind(look_);
+  for (StoneModel& s : stones_) {
+    for (const StoneModel& other : stones_) {
+      if (&other != &s) s.hide_behind({other.place(), other.handle_colour()}, look_);
+    }
+    for (const NearerStone& nearer : options_.nearer) s.hide_behind(nearer, look_);
+  }
+}
+
+SharedMatrix StoneFitter::shared_normal(bool with_stones) const {
+  SharedMatrix normal = prior_weights().asDiagonal();
+  if (!with_stones) return normal;
+  for (const StoneModel& s : stones_) {
+    const Parts parts(s);
+    if (!s.enough() || !parts.determined()) continue;
+    normal += parts.shared - parts.lever.transpose() * parts.own.inverse() * parts.lever;
+  }
+  return normal;
+}
+
+SharedVector StoneFitter::shared_step() const {
+  SharedVector right = prior_weights().cwiseProduct(prior_ - numbers_of(look_));
+  for (const StoneModel& s : stones_) {
+    const Parts parts(s);
+    if (!s.enough() || !parts.determined()) continue;
+    right += parts.shared_right - parts.lever.transpose() * parts.own.inverse() * parts.own_right;
+  }
+  const SharedVector step = shared_normal(true).ldlt().solve(right);
+  if (!step.allFinite()) return SharedVector::Zero();
+  return step.cwiseMin(longest_step()).cwiseMax(-longest_step());
+}
+
+void StoneFitter::step(bool with_shared) {
+  const SharedVector shared = with_shared ? shared_step() : SharedVector::Zero();
+  for (StoneModel& s : stones_) {
+    const Parts parts(s);
+    if (!s.enough() || !parts.determined()) continue;
+    const Eigen::Vector2d own = parts.own.inverse() * (parts.own_right - parts.lever * shared);
+    if (own.allFinite()) s.move(own);
+  }
+  look_ = look_of(numbers_of(look_) + shared, look_);
 }
 
 }  // namespace hogline::vision

@@ -4,10 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
-#include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_model.hpp"
 
 namespace hogline::vision {
@@ -15,11 +14,12 @@ namespace hogline::vision {
 /// How a stone came out.
 struct FittedStone {
   bool ok = false;
-  std::string reason;  ///< why not, when !ok
-  Eigen::Vector2d place;
+  std::string reason = {};  ///< why not, when !ok
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the place, the shared shape's doubt included
   Light handle = Light::Zero();                          ///< colour against white ice: blue, green, red
   Light granite = Light::Zero();
+  int granite_pixels = 0;  ///< of those used, how many show granite and nothing else
   double residual = 0.0;   ///< RMS of light left unexplained, against white ice
   double explained = 0.0;  ///< share of the picture's difference from the background that the stone explains, 0..1
   double handle_contrast = 0.0;  ///< between handle and granite, in light against white ice
@@ -35,13 +35,34 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 4;
   bool fit_shape = true;
-  std::size_t pixels = 300;              ///< about so many of each stone
+  int pixels = 300;                      ///< about so many of each stone
   std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
 };
 
-/// `starts` within about a pixel and a half of the truth.
-StoneFitResult fit_stones(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
-                          const SheetCamera& camera, const StoneShape& shape,
-                          const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options = {});
+/// Keeps its memory from fit to fit.
+class StoneFitter {
+ public:
+  /// Takes up stones at `starts`, within about a pixel and a half of the truth, and finds their colours there. The
+  /// picture is used until the next begin().
+  void begin(const StonePicture& picture, const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options);
+
+  /// The first stone's granite before any step: blue, green, red against white ice.
+  Light first_granite() const;
+
+  /// Takes the steps. As many stones as were given, in their order.
+  const StoneFitResult& run();
+
+ private:
+  void settle_surroundings();
+  void step(bool with_shared);
+  SharedMatrix shared_normal(bool with_stones) const;
+  SharedVector shared_step() const;
+
+  StoneFitOptions options_;
+  SharedLook look_;
+  SharedVector prior_;
+  std::vector<StoneModel> stones_;
+  StoneFitResult result_;
+};
 
 }  // namespace hogline::vision

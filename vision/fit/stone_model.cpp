@@ -1,94 +1,39 @@
 #include "vision/fit/stone_model.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "vision/fit/light_parts.hpp"
+#include "vision/fit/normal_table.hpp"
 
 namespace hogline::vision {
 namespace {
 
-constexpr double foot_height = -0.3;    // below it the outline melts into the stone's own shadow
-constexpr double shade_px = 8.0;        // granite darkens downwards: scale of that slope
-constexpr double hidden_px = -2.0;      // so near to a nearer stone nothing is believed
+constexpr float foot_height = -0.3F;  // below it the outline melts into the stone's own shadow
+constexpr float near_foot_px = 2.5F;
+constexpr float shade_px = 8.0F;        // granite darkens downwards: scale of that slope
+constexpr float hidden_px = -2.0F;      // so near to a nearer stone nothing is believed
 constexpr double grip_height_m = 0.06;  // over the handle's rim
 constexpr double neighbour_m = 2.5;     // farther stones hide nothing of each other
+constexpr double abreast_m = 0.33;      // nor do those that are farther apart across the line of sight
 constexpr double most_step_m = 0.06;
-constexpr std::size_t fewest_pixels = 40;
-constexpr double colour_weight = 0.4;  // neighbouring pixels share their colours
-
-// Brightness, and two colours that are zero for grey; from blue, green, red.
-const Eigen::Matrix3d to_parts =
-    (Eigen::Matrix3d() << 0.114, 0.587, 0.299, -0.114, -0.587, 0.701, 0.886, -0.587, -0.299).finished();
-const Eigen::Matrix3d from_parts = to_parts.inverse();
-
-/// The normal distribution's integral and density, tabulated.
-class NormalTable {
- public:
-  NormalTable() {
-    for (int i = 0; i < size; ++i) {
-      const double z = i / per_unit - reach;
-      integral_[static_cast<std::size_t>(i)] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-      density_[static_cast<std::size_t>(i)] = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
-    }
-  }
-  struct Value {
-    double integral, density;
-  };
-  Value at(double z) const {
-    if (z <= -reach) return {0.0, 0.0};
-    if (z >= reach) return {1.0, 0.0};
-    const double u = (z + reach) * per_unit;
-    const auto i = static_cast<std::size_t>(u);
-    const double f = u - static_cast<double>(i);
-    return {integral_[i] + f * (integral_[i + 1] - integral_[i]), density_[i] + f * (density_[i + 1] - density_[i])};
-  }
-
- private:
-  static constexpr double reach = 4.0;
-  static constexpr double per_unit = 64.0;
-  static constexpr int size = 514;
-  std::array<double, size> integral_{};
-  std::array<double, size> density_{};
-};
+constexpr float fewest_pixels = 40.0F;
+constexpr float plain_granite = 0.85F;  // of a pixel's light
+constexpr int fewest_granite = 8;
 
 const NormalTable normal_table;
 
 }  // namespace
 
-SharedVector numbers_of(const SharedLook& look) {
-  SharedVector v;
-  v << look.shape.handle_thickness_m, look.shape.body_radius_m, look.shape.body_half_height_m,
-      look.shape.handle_height_m, look.shape.handle_radius_m, look.wall_light, look.blur_px, look.colour_blur_px;
-  return v;
-}
-
-SharedLook look_of(const SharedVector& numbers) {
-  SharedLook look;
-  look.shape.handle_thickness_m = std::clamp(numbers[0], 0.002, 0.05);
-  look.shape.body_radius_m = std::clamp(numbers[1], 0.13, 0.15);
-  look.shape.body_half_height_m = std::clamp(numbers[2], 0.04, 0.08);
-  look.shape.handle_height_m = numbers[3];
-  look.shape.handle_radius_m = numbers[4];
-  look.wall_light = std::clamp(numbers[5], 0.2, 1.2);
-  look.blur_px = std::clamp(numbers[6], 0.4, 2.5);
-  look.colour_blur_px = std::clamp(numbers[7], 0.4, 3.0);
-  return look;
-}
-
-StoneModel::StoneModel(const PatchSource& source, const SheetCamera& camera, const StoneShape& shape,
-                       const Eigen::Vector2d& start, std::size_t most)
-    : source_(source), place_(start), eye_(camera.eMc().translation()) {
-  raw_ = stone_pixels(source_, camera, {place_, shape}, most);
-  pixels_.resize(raw_.size());
-  double middle = 0.0;
-  for (const StonePixel& p : raw_) middle += p.pixel.y() / static_cast<double>(raw_.size());
-  for (std::size_t i = 0; i < raw_.size(); ++i) {
-    pixels_[i].light = to_parts * raw_[i].light;
-    pixels_[i].shade = (raw_[i].pixel.y() - middle) / shade_px;
-  }
+StoneModel::StoneModel(const StonePicture& picture, const SharedLook& look, const Eigen::Vector2d& start, int most)
+    : source_(picture, start), place_(start), eye_(picture.eye()) {
+  gather_stone_pixels(source_, picture.camera, stands(look), most, seen_);
+  light_ = in_parts(seen_.light);
+  const float middle = seen_.count() > 0 ? seen_.y.mean() : 0.0F;
+  shade_ = (seen_.y - middle) / shade_px;
+  weight_.setOnes(seen_.count());
 }
 
 void StoneModel::move(const Eigen::Vector2d& step) {
@@ -102,192 +47,136 @@ Eigen::Matrix2d StoneModel::unknowable(double height_sigma_m) const {
          0.25 * height_sigma_m * height_sigma_m * Eigen::Matrix2d::Identity();
 }
 
+StonePlace StoneModel::stands(const SharedLook& look) const {
+  StonePlace stone{place_, look.shape};
+  stone.shape.handle_height_m -= rim_lowering_m(look.shape, range_m(), eye_.z());
+  return stone;
+}
+
 void StoneModel::look_behind(const SharedLook& look) {
-  vision::look_behind(source_, {place_, look.shape}, eye_, coloured_ ? handle_colour() : Light::Zero(), raw_);
-  for (std::size_t i = 0; i < raw_.size(); ++i) pixels_[i].behind = to_parts * raw_[i].behind;
+  vision::look_behind(source_, stands(look), eye_, coloured_ ? handle_colour() : Light::Zero(), seen_);
+  behind_ = in_parts(seen_.behind);
 }
 
 void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) {
-  if ((nearer.place - place_).norm() > neighbour_m || (nearer.place - eye_.head<2>()).norm() >= range_m()) return;
+  const Eigen::Vector2d apart = nearer.place - place_;
+  if (apart.norm() > neighbour_m || (nearer.place - eye_.head<2>()).norm() >= range_m()) return;
+  if (std::abs(apart.dot(bearing_of(place_, eye_).right)) > abreast_m) return;
   const StonePlace front{nearer.place, look.shape};
   StonePlace grip = front;
   grip.shape.handle_height_m += grip_height_m;
   grip.shape.handle_thickness_m = grip_height_m;
-  const StonePlace own{place_, look.shape};
-  for (StonePixel& p : raw_) {
-    if (!p.usable) continue;
-    const double px = std::max(handle_distance(front, eye_, p.sight).px, body_distance(front, eye_, p.sight).px);
-    if (px > hidden_px) {
-      p.usable = false;
-    } else if (handle_distance(grip, eye_, p.sight).px > 0.0 && handle_distance(own, eye_, p.sight).px < -1.0) {
-      const bool alike = (p.light - nearer.handle).norm() < 0.5 * (p.light - Light::Constant(0.25)).norm();
-      if (alike) p.usable = false;
-    }
+  DiscDistances handle;
+  BodyDistances body;
+  handle_distances(front, eye_, seen_.sights, handle);
+  body_distances(front, eye_, seen_.sights, body);
+  const Pixels nearest = handle.px.max(body.px);
+  handle_distances(grip, eye_, seen_.sights, handle);
+  handle_distances(stands(look), eye_, seen_.sights, handle_);
+  const Eigen::Array3f colour = nearer.handle.cast<float>().array();
+  for (Eigen::Index i = 0; i < seen_.count(); ++i) {
+    if (nearest[i] > hidden_px) seen_.usable[i] = 0.0F;
+    if (!(handle.px[i] > 0.0F && handle_.px[i] < -1.0F)) continue;
+    const Eigen::Array3f light = seen_.light.row(i).transpose();
+    const float to_grip = (light - colour).matrix().norm();
+    if (to_grip < 0.5F * (light - 0.25F).matrix().norm()) seen_.usable[i] = 0.0F;
   }
 }
 
-void StoneModel::mix(const SharedLook& look) {
-  const StonePlace stone{place_, look.shape};
-  const auto blurred = [&look](const Pixel& p, double blur) {
-    const auto handle = normal_table.at(p.handle.px / blur);
-    const auto face = normal_table.at(p.face.px / blur);
-    const auto body = normal_table.at(p.body.px / blur);
-    Blurred b;
-    b.handle = handle.integral;
-    b.face = face.integral;
-    b.plate = look.wall_light * handle.integral + (1.0 - look.wall_light) * face.integral;
-    b.body = body.integral;
-    b.by_handle = handle.density / blur;
-    b.by_face = face.density / blur;
-    b.by_body = body.density / blur;
-    b.handle_by_blur = -b.by_handle * p.handle.px / blur;
-    b.face_by_blur = -b.by_face * p.face.px / blur;
-    b.body_by_blur = -b.by_body * p.body.px / blur;
-    return b;
-  };
-  for (std::size_t i = 0; i < raw_.size(); ++i) {
-    Pixel& p = pixels_[i];
-    p.used = raw_[i].usable;
-    if (!p.used) continue;
-    p.handle = handle_distance(stone, eye_, raw_[i].sight);
-    p.body = body_distance(stone, eye_, raw_[i].sight);
-    p.used = !(p.body.px > p.handle.px && p.body.height < foot_height && p.body.px < 2.5);
-    if (!p.used) continue;
-    p.face = face_distance(stone, eye_, raw_[i].sight);
-    p.fine = blurred(p, look.blur_px);
-    p.coarse = blurred(p, look.colour_blur_px);
+void StoneModel::Blurred::mix(const DiscDistances& handle_at, const DiscDistances& face_at,
+                              const BodyDistances& body_at, float blur_px, float wall_light) {
+  const Eigen::Index count = handle_at.px.size();
+  for (Pixels* p : {&handle, &face, &body, &by_handle, &by_face, &by_body}) p->resize(count);
+  const float sharp = 1.0F / blur_px;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    normal_table.at(handle_at.px[i] * sharp, handle[i], by_handle[i]);
+    normal_table.at(face_at.px[i] * sharp, face[i], by_face[i]);
+    normal_table.at(body_at.px[i] * sharp, body[i], by_body[i]);
   }
+  by_handle *= sharp;
+  by_face *= sharp;
+  by_body *= sharp;
+  plate = wall_light * handle + (1.0F - wall_light) * face;
+  granite = (1.0F - handle) * body;
+}
+
+StoneModel::Basis StoneModel::Blurred::basis(const Pixels& shade) const {
+  Basis b(plate.size(), 3);
+  b.col(0) = plate;
+  b.col(1) = granite;
+  b.col(2) = granite * shade;
+  return b;
+}
+
+void StoneModel::mix(const SharedLook& look) {
+  const StonePlace stone = stands(look);
+  handle_distances(stone, eye_, seen_.sights, handle_);
+  face_distances(stone, eye_, seen_.sights, face_);
+  body_distances(stone, eye_, seen_.sights, body_);
+  const auto own_foot = body_.px > handle_.px && body_.height < foot_height && body_.px < near_foot_px;
+  used_ = own_foot.select(0.0F, seen_.usable);
+  const auto wall = static_cast<float>(look.wall_light);
+  fine_.mix(handle_, face_, body_, static_cast<float>(look.blur_px), wall);
+  coarse_.mix(handle_, face_, body_, static_cast<float>(look.colour_blur_px), wall);
 }
 
 void StoneModel::find_colours(const SharedLook& look) {
   mix(look);
-  std::array<Eigen::Matrix3d, 2> normal;
-  normal.fill(1e-6 * Eigen::Matrix3d::Identity());
-  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
-  for (const Pixel& p : pixels_) {
-    if (!p.used) continue;
-    for (std::size_t part = 0; part < 2; ++part) {
-      const Blurred& b = part == 0 ? p.fine : p.coarse;
-      const double granite = (1.0 - b.handle) * b.body;
-      const Eigen::Vector3d basis(b.plate, granite, granite * p.shade);
-      normal[part] += p.weight * basis * basis.transpose();
-      const double rest = (1.0 - b.handle) * (1.0 - b.body);
-      if (part == 0) {
-        right.col(0) += p.weight * (p.light[0] - rest * p.behind[0]) * basis;
-      } else {
-        right.col(1) += p.weight * (p.light[1] - rest * p.behind[1]) * basis;
-        right.col(2) += p.weight * (p.light[2] - rest * p.behind[2]) * basis;
-      }
+  const Pixels weights = weight_ * used_;
+  for (int part = 0; part < 3; ++part) {
+    const Blurred& b = blurred(part);
+    const Basis basis = b.basis(shade_);
+    const Pixels explained = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
+    Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right;
+    for (int i = 0; i < 3; ++i) {
+      const Pixels weighed = weights * basis.col(i);
+      right[i] = static_cast<double>((weighed * explained).sum());
+      for (int j = 0; j <= i; ++j)
+        normal(i, j) = normal(j, i) = normal(i, j) + static_cast<double>((weighed * basis.col(j)).sum());
     }
+    normal(2, 2) += 1e-2 * normal(1, 1);
+    const Eigen::Vector3d found = normal.ldlt().solve(right);
+    if (found.allFinite()) colours_.col(part) = found;
   }
-  Eigen::Matrix3d found;
-  for (std::size_t part = 0; part < 2; ++part) normal[part](2, 2) += 1e-2 * normal[part](1, 1);
-  found.col(0) = normal[0].ldlt().solve(right.col(0));
-  found.rightCols<2>() = normal[1].ldlt().solve(right.rightCols<2>());
-  if (found.allFinite()) colours_ = found;
   coloured_ = true;
 }
 
-void StoneModel::linearise(const SharedLook& look) {
-  find_colours(look);
-  normal_.setZero();
-  right_.setZero();
-  std::array<Eigen::Matrix3d, 2> colour_normal;
-  colour_normal.fill(1e-6 * Eigen::Matrix3d::Identity());
-  std::array<Eigen::Matrix<double, 3, model_numbers>, 3> cross;
-  for (auto& c : cross) c.setZero();
-  Eigen::Matrix3d colour_right = Eigen::Matrix3d::Zero();
-  std::vector<double> sizes;
-  sizes.reserve(pixels_.size());
-  double left = 0.0;
-  double plain_left = 0.0;
-  double difference = 0.0;
-  double weights = 0.0;
-  used_ = 0;
-  for (Pixel& p : pixels_) {
-    if (!p.used) continue;
-    std::array<ModelVector, 3> slope;
-    std::array<Eigen::Vector3d, 2> basis;
-    Light residual;
-    for (int k = 0; k < 3; ++k) {
-      const Blurred& b = k == 0 ? p.fine : p.coarse;
-      const double handle = colours_(0, k);
-      const double stone = colours_(1, k) + p.shade * colours_(2, k);
-      const double under = b.body * stone + (1.0 - b.body) * p.behind[k];
-      residual[k] = p.light[k] - (b.plate * handle + (1.0 - b.handle) * under);
-      const double to_handle = look.wall_light * handle - under;
-      const double to_face = (1.0 - look.wall_light) * handle;
-      const double to_body = (1.0 - b.handle) * (stone - p.behind[k]);
-      ModelVector& j = slope[static_cast<std::size_t>(k)];
-      j.head<7>() =
-          to_handle * b.by_handle * p.handle.by + to_face * b.by_face * p.face.by + to_body * b.by_body * p.body.by;
-      j[7] = (b.handle - b.face) * handle;
-      const double by_blur = to_handle * b.handle_by_blur + to_face * b.face_by_blur + to_body * b.body_by_blur;
-      j[8] = k == 0 ? by_blur : 0.0;
-      j[9] = k == 0 ? 0.0 : by_blur;
-      const double granite = (1.0 - b.handle) * b.body;
-      basis[k == 0 ? 0 : 1] = {b.plate, granite, granite * p.shade};
-    }
-    // Shot noise grows with the light; what is behind was measured with noise, too.
-    const double noise = 0.02 + 0.5 * std::max(0.0, p.light[0] + p.behind[0]);
-    const double size =
-        std::sqrt((residual[0] * residual[0] + colour_weight * residual.tail<2>().squaredNorm()) / noise);
-    sizes.push_back(size);
-    const double robust = scale_ > 0.0 ? 1.0 / (1.0 + (size / scale_) * (size / scale_)) : 1.0;
-    p.weight = robust / noise;
-    for (int k = 0; k < 3; ++k) {
-      const double w = k == 0 ? p.weight : colour_weight * p.weight;
-      const auto& j = slope[static_cast<std::size_t>(k)];
-      normal_.selfadjointView<Eigen::Lower>().rankUpdate(j, w);
-      right_ += w * residual[k] * j;
-      const auto& f = basis[k == 0 ? 0 : 1];
-      cross[static_cast<std::size_t>(k)] += w * f * j.transpose();
-      colour_right.col(k) += w * residual[k] * f;
-    }
-    colour_normal[0] += p.weight * basis[0] * basis[0].transpose();
-    colour_normal[1] += colour_weight * p.weight * basis[1] * basis[1].transpose();
-    left += p.weight * size * size * noise;
-    plain_left += p.weight * residual[0] * residual[0];
-    const Light change = p.light - p.behind;
-    difference += p.weight * (change[0] * change[0] + colour_weight * change.tail<2>().squaredNorm());
-    weights += p.weight;
-    ++used_;
-  }
-  normal_.triangularView<Eigen::StrictlyUpper>() = normal_.transpose();
-  for (int k = 0; k < 3; ++k) {
-    const auto& c = cross[static_cast<std::size_t>(k)];
-    const Eigen::LDLT<Eigen::Matrix3d> colours(colour_normal[k == 0 ? 0 : 1]);
-    normal_ -= c.transpose() * colours.solve(c);
-    right_ -= c.transpose() * colours.solve(colour_right.col(k));
-  }
-  if (!sizes.empty()) {
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    scale_ = std::max(0.02, 2.0 * *middle);
-  }
-  variance_ = left / (2.0 * static_cast<double>(std::max<std::size_t>(1, used_)));
-  residual_ = weights > 0.0 ? std::sqrt(plain_left / weights) : 0.0;
-  explained_ = difference > 0.0 ? 1.0 - left / difference : 0.0;
+bool StoneModel::enough() const { return used_.sum() >= fewest_pixels; }
+
+double StoneModel::visible() const { return used_.size() == 0 ? 0.0 : static_cast<double>(used_.mean()); }
+
+Light StoneModel::handle_colour() const { return from_parts(colours_.row(0).transpose()); }
+
+int StoneModel::granite_pixels() const {
+  return static_cast<int>((fine_.granite > plain_granite && used_ > 0.0F).count());
 }
 
-bool StoneModel::enough() const { return used_ >= fewest_pixels; }
-
-double StoneModel::visible() const {
-  return pixels_.empty() ? 0.0 : static_cast<double>(used_) / static_cast<double>(pixels_.size());
+Light StoneModel::granite_colour() const {
+  if (granite_pixels() < fewest_granite) return from_parts(colours_.row(1).transpose());
+  Light granite;
+  for (int channel = 0; channel < 3; ++channel) {
+    std::array<float, most_pixels> lights{};
+    auto end = lights.begin();
+    for (Eigen::Index i = 0; i < seen_.count(); ++i) {
+      if (fine_.granite[i] > plain_granite && used_[i] > 0.0F) *end++ = seen_.light(i, channel);
+    }
+    const auto middle = lights.begin() + (end - lights.begin()) / 2;
+    std::nth_element(lights.begin(), middle, end);
+    granite[channel] = static_cast<double>(*middle);
+  }
+  return granite;
 }
-
-Light StoneModel::handle_colour() const { return from_parts * colours_.row(0).transpose(); }
-Light StoneModel::granite_colour() const { return from_parts * colours_.row(1).transpose(); }
 
 Light StoneModel::behind_colour() const {
   Light sum = Light::Zero();
   double count = 0.0;
-  for (const Pixel& p : pixels_) {
-    if (!p.used || p.fine.body > 0.5 || p.fine.handle > 0.5) continue;
-    sum += p.behind;
+  for (Eigen::Index i = 0; i < seen_.count(); ++i) {
+    if (used_[i] == 0.0F || fine_.body[i] > 0.5F || fine_.handle[i] > 0.5F) continue;
+    sum += seen_.behind.row(i).cast<double>().matrix().transpose();
     count += 1.0;
   }
-  return count > 0.0 ? Light(from_parts * (sum / count)) : Light::Zero();
+  return count > 0.0 ? Light(sum / count) : Light::Zero();
 }
 
 }  // namespace hogline::vision

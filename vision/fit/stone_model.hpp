@@ -3,31 +3,17 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <optional>
 
+#include "vision/fit/stone_look.hpp"
 #include "vision/fit/stone_patch.hpp"
 
 namespace hogline::vision {
 
-/// What all stones of a picture share, beside the rig's measures of the handle.
-struct SharedLook {
-  StoneShape shape;
-  double wall_light = 0.7;      ///< of the handle's wall, as a share of its upper face's
-  double blur_px = 0.75;        ///< standard deviation, of the light as a whole
-  double colour_blur_px = 1.2;  ///< of colours: sensors with a mosaic and compression blur them more
-};
-
-inline constexpr int shared_numbers =
-    8;  ///< thickness, body radius, body half height, height, radius, wall, blur, colour blur
 inline constexpr int model_numbers = 2 + shared_numbers;  ///< x, y before them
 
 using ModelVector = Eigen::Matrix<double, model_numbers, 1>;
 using ModelMatrix = Eigen::Matrix<double, model_numbers, model_numbers>;
-using SharedVector = Eigen::Matrix<double, shared_numbers, 1>;
-using SharedMatrix = Eigen::Matrix<double, shared_numbers, shared_numbers>;
-
-SharedVector numbers_of(const SharedLook& look);
-SharedLook look_of(const SharedVector& numbers);
 
 /// A stone that may hide parts of another.
 struct NearerStone {
@@ -37,9 +23,8 @@ struct NearerStone {
 
 class StoneModel {
  public:
-  /// Gathers about `most` pixels of the outline. `source` is kept.
-  StoneModel(const PatchSource& source, const SheetCamera& camera, const StoneShape& shape,
-             const Eigen::Vector2d& start, std::size_t most);
+  /// Gathers about `most` pixels of the outline.
+  StoneModel(const StonePicture& picture, const SharedLook& look, const Eigen::Vector2d& start, int most);
 
   const Eigen::Vector2d& place() const { return place_; }
   double range_m() const { return (place_ - eye_.head<2>()).norm(); }
@@ -67,36 +52,53 @@ class StoneModel {
   const ModelVector& right() const { return right_; }
 
   Light handle_colour() const;  ///< blue, green, red against white ice
+  /// The middle one of the pixels that show granite and nothing else; of few such pixels, what explains them all best.
   Light granite_colour() const;
+  int granite_pixels() const;  ///< how many show granite and nothing else
   Light behind_colour() const;
 
  private:
-  /// Shares and their derivatives at one pixel, for one blur.
+  /// Shares at each pixel, for one blur, and their slopes per pixel of distance.
   struct Blurred {
-    double plate = 0.0;                                    ///< of the handle's colour: face, and wall by its light
-    double handle = 0.0;                                   ///< covered by the handle
-    double face = 0.0;                                     ///< covered by its upper face
-    double body = 0.0;                                     ///< covered by the body, of what the handle leaves
-    double by_handle = 0.0, by_face = 0.0, by_body = 0.0;  ///< per pixel of distance
-    double handle_by_blur = 0.0, face_by_blur = 0.0, body_by_blur = 0.0;
-  };
-  struct Pixel {
-    Light light;  ///< brightness, red less brightness, blue less brightness
-    Light behind;
-    bool used = false;
-    double weight = 1.0;
-    double shade = 0.0;
-    RegionDistance handle, face, body;
-    Blurred fine, coarse;  ///< for brightness, for colours
-  };
+    Pixels plate;    ///< of the handle's colour: face, and wall by its light
+    Pixels handle;   ///< covered by the handle
+    Pixels face;     ///< covered by its upper face
+    Pixels body;     ///< covered by the body, of what the handle leaves
+    Pixels granite;  ///< granite that is seen
+    Pixels by_handle, by_face, by_body;
 
+    void mix(const DiscDistances& handle_at, const DiscDistances& face_at, const BodyDistances& body_at, float blur_px,
+             float wall_light);
+    Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3> basis(const Pixels& shade) const;
+  };
+  using Basis = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3>;
+  using Slopes = Eigen::Array<float, Eigen::Dynamic, model_numbers, Eigen::ColMajor, most_pixels, model_numbers>;
+  struct Equations;
+
+  StonePlace stands(const SharedLook& look) const;
+  const Blurred& blurred(int part) const { return part == 0 ? fine_ : coarse_; }
   void mix(const SharedLook& look);
+  void add_part(int part, const SharedLook& look, const Pixels& weights, Equations& sums);
+  void find_residual(int part);
+  void find_slopes(int part, const SharedLook& look);
+  void weigh(const Pixels& noise, const Pixels& sizes);
+  void find_scale(const Pixels& sizes);
+  void summarise(const Pixels& sizes, const Pixels& noise);
 
   PatchSource source_;
   Eigen::Vector2d place_;
   Eigen::Vector3d eye_;
-  std::vector<StonePixel> raw_;
-  std::vector<Pixel> pixels_;
+  StonePixels seen_;
+  PixelColours light_;   ///< brightness, red less brightness, blue less brightness
+  PixelColours behind_;  ///< the same
+  Pixels shade_;         ///< granite darkens downwards
+  Pixels used_;          ///< 1 or 0
+  Pixels weight_;
+  DiscDistances handle_, face_;
+  BodyDistances body_;
+  Blurred fine_, coarse_;  ///< for brightness, for colours
+  PixelColours residuals_;
+  Slopes slopes_;
   Eigen::Matrix3d colours_ = Eigen::Matrix3d::Zero();  ///< rows: handle, granite, its slope; columns as light
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
@@ -105,7 +107,6 @@ class StoneModel {
   double variance_ = 0.0;
   double residual_ = 0.0;
   double explained_ = 0.0;
-  std::size_t used_ = 0;
 };
 
 }  // namespace hogline::vision

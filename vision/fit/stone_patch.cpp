@@ -8,60 +8,63 @@ namespace hogline::vision {
 namespace {
 
 constexpr double margin_px = 3.0;
-constexpr double band_px = 3.5;       // about an outline: blur, and what the fit may move
-constexpr double clearance_px = 2.8;  // beyond the outline the stone's light has faded
+constexpr float band_px = 3.5F;  // about an outline: blur, and what the fit may move
 
 /// Lines of sight of a rectangle, by second-order interpolation between nine.
 class SightTable {
  public:
-  SightTable(const SheetCamera& camera, const cv::Rect& area) : area_(area) {
+  SightTable(const SheetCamera& camera, const cv::Rect& area)
+      : area_(area),
+        by_column_(2.0F / static_cast<float>(area.width - 1)),
+        by_row_(2.0F / static_cast<float>(area.height - 1)) {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
         const Eigen::Vector2d pixel(area.x + 0.5 * i * (area.width - 1), area.y + 0.5 * j * (area.height - 1));
         const auto ray = camera.lens().ray(pixel);
-        if (!ray) {
-          ok_ = false;
-          return;
-        }
-        const Eigen::Vector3d d = camera.eMc().linear() * *ray;
-        if (!(d.z() < -1e-3)) {
-          ok_ = false;
-          return;
-        }
-        knots_[static_cast<std::size_t>(3 * j + i)] = d.head<2>() / -d.z();
+        const Eigen::Vector3d d = ray ? Eigen::Vector3d(camera.eMc().linear() * *ray) : Eigen::Vector3d::Zero();
+        ok_ = ok_ && d.z() < -1e-3;
+        if (ok_) knots_[static_cast<std::size_t>(3 * j + i)] = (d.head<2>() / -d.z()).cast<float>();
       }
     }
   }
 
   bool ok() const { return ok_; }
 
-  SightLine at(const Eigen::Vector2d& pixel) const {
-    const double u = (pixel.x() - area_.x) / (0.5 * (area_.width - 1));
-    const double v = (pixel.y() - area_.y) / (0.5 * (area_.height - 1));
-    const auto weights = [](double t) -> Eigen::Vector3d {
-      return {0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0)};
-    };
-    const auto slopes = [](double t) -> Eigen::Vector3d { return {t - 1.5, 2.0 - 2.0 * t, t - 0.5}; };
-    const Eigen::Vector3d wu = weights(u);
-    const Eigen::Vector3d wv = weights(v);
-    const Eigen::Vector3d su = slopes(u) / (0.5 * (area_.width - 1));
-    const Eigen::Vector3d sv = slopes(v) / (0.5 * (area_.height - 1));
-    SightLine sight{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector2d& knot = knots_[static_cast<std::size_t>(3 * j + i)];
-        sight.slope += wu[i] * wv[j] * knot;
-        sight.by_pixel.col(0) += su[i] * wv[j] * knot;
-        sight.by_pixel.col(1) += wu[i] * sv[j] * knot;
-      }
+  void find(int x, int y, Eigen::Index at, SightLines& sights) const {
+    const float u = static_cast<float>(x - area_.x) * by_column_;
+    const float v = static_cast<float>(y - area_.y) * by_row_;
+    const std::array<float, 3> wu = weights(u);
+    const std::array<float, 3> wv = weights(v);
+    const std::array<float, 3> su{(u - 1.5F) * by_column_, (2.0F - 2.0F * u) * by_column_, (u - 0.5F) * by_column_};
+    const std::array<float, 3> sv{(v - 1.5F) * by_row_, (2.0F - 2.0F * v) * by_row_, (v - 0.5F) * by_row_};
+    Eigen::Vector2f slope = Eigen::Vector2f::Zero();
+    Eigen::Vector2f by_column = Eigen::Vector2f::Zero();
+    Eigen::Vector2f by_row = Eigen::Vector2f::Zero();
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Eigen::Vector2f row = wu[0] * knots_[3 * j] + wu[1] * knots_[3 * j + 1] + wu[2] * knots_[3 * j + 2];
+      const Eigen::Vector2f turn = su[0] * knots_[3 * j] + su[1] * knots_[3 * j + 1] + su[2] * knots_[3 * j + 2];
+      slope += wv[j] * row;
+      by_column += wv[j] * turn;
+      by_row += sv[j] * row;
     }
-    return sight;
+    sights.x[at] = slope.x();
+    sights.y[at] = slope.y();
+    sights.x_by_column[at] = by_column.x();
+    sights.y_by_column[at] = by_column.y();
+    sights.x_by_row[at] = by_row.x();
+    sights.y_by_row[at] = by_row.y();
   }
 
  private:
+  static std::array<float, 3> weights(float t) {
+    return {0.5F * (t - 1.0F) * (t - 2.0F), t * (2.0F - t), 0.5F * t * (t - 1.0F)};
+  }
+
   cv::Rect area_;
+  float by_column_;
+  float by_row_;
   bool ok_ = true;
-  std::array<Eigen::Vector2d, 9> knots_;
+  std::array<Eigen::Vector2f, 9> knots_;
 };
 
 cv::Rect bounds_of(const SheetCamera& camera, const StonePlace& stone) {
@@ -70,8 +73,8 @@ cv::Rect bounds_of(const SheetCamera& camera, const StonePlace& stone) {
   if (bearing.range_m < 2.0 * stone.shape.body_radius_m) return {};
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9);
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-1e9);
-  for (int i = 0; i < 16; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / 16.0;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 12.0;
     for (const Eigen::Vector3d& p :
          {body_outline_point(stone.place, stone.shape, eye, angle),
           circle_point(stone.place, bearing, stone.shape.handle_radius_m, stone.shape.handle_height_m, angle)}) {
@@ -89,136 +92,132 @@ cv::Rect bounds_of(const SheetCamera& camera, const StonePlace& stone) {
   return cv::Rect(a, b) & cv::Rect(0, 0, k.width_px, k.height_px);
 }
 
-}  // namespace
-
-bool PatchSource::light_at(const Eigen::Vector2d& pixel, Light& light) const {
-  if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < bgr.cols - 1 && pixel.y() < bgr.rows - 1)) return false;
-  const int x = static_cast<int>(pixel.x());
-  const int y = static_cast<int>(pixel.y());
-  const double u = pixel.x() - x;
-  const double v = pixel.y() - y;
-  const std::uint8_t* top = bgr.ptr<std::uint8_t>(y) + 3 * x;
-  const std::uint8_t* low = bgr.ptr<std::uint8_t>(y + 1) + 3 * x;
-  for (int k = 0; k < 3; ++k) {
-    const double a = double{response.linear(top[k])} * (1.0 - u) + double{response.linear(top[k + 3])} * u;
-    const double b = double{response.linear(low[k])} * (1.0 - u) + double{response.linear(low[k + 3])} * u;
-    light[k] = (a + v * (b - a)) / white[k];
+/// Pixels that are tried, some hundred at a time; those about an outline are kept.
+class Sieve {
+ public:
+  Sieve(const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& kept)
+      : stone_(stone), eye_(eye), kept_(kept) {
+    tried_.resize(most_pixels);
+    resize(kept_, most_pixels);
   }
-  return true;
-}
 
-std::vector<StonePixel> stone_pixels(const PatchSource& source, const SheetCamera& camera, const StonePlace& stone,
-                                     std::size_t most) {
-  const cv::Rect area = bounds_of(camera, stone);
-  if (area.width < 6 || area.height < 6) return {};
-  const SightTable sights(camera, area);
-  if (!sights.ok()) return {};
-  const Eigen::Vector3d eye = camera.eMc().translation();
-  // About a third of the rectangle lies near an outline; of a big stone, every few pixels in a slanting pattern do.
-  const int keep = std::clamp(area.area() / static_cast<int>(3 * most), 1, 10);
-  std::vector<StonePixel> all;
-  for (int y = area.y; y < area.br().y; ++y) {
-    const std::uint8_t* row = source.bgr.ptr<std::uint8_t>(y);
-    for (int x = area.x; x < area.br().x; ++x) {
-      if ((x + 3 * y) % keep != 0) continue;
-      StonePixel p;
-      p.pixel = {x, y};
-      p.sight = sights.at(p.pixel);
-      const double handle = handle_distance(stone, eye, p.sight).px;
-      const double body = body_distance(stone, eye, p.sight).px;
+  void add(int x, int y, const SightTable& sights) {
+    columns_[static_cast<std::size_t>(waiting_)] = x;
+    rows_[static_cast<std::size_t>(waiting_)] = y;
+    sights.find(x, y, waiting_, tried_);
+    if (++waiting_ == most_pixels) settle();
+  }
+
+  /// False when more were about an outline than can be kept.
+  bool finish() {
+    settle();
+    resize(kept_, count_);
+    return !full_;
+  }
+
+ private:
+  static void resize(StonePixels& p, Eigen::Index count) {
+    const auto shrink = [count](Pixels& numbers) { numbers.conservativeResize(count); };
+    for (Pixels* n : {&p.sights.x, &p.sights.y, &p.sights.x_by_column, &p.sights.x_by_row, &p.sights.y_by_column,
+                      &p.sights.y_by_row, &p.x, &p.y, &p.usable}) {
+      shrink(*n);
+    }
+    p.light.conservativeResize(count, 3);
+    p.behind.conservativeResize(count, 3);
+  }
+
+  void settle() {
+    tried_.resize(waiting_);
+    handle_distances(stone_, eye_, tried_, handle_);
+    body_distances(stone_, eye_, tried_, body_);
+    tried_.resize(most_pixels);
+    for (int i = 0; i < waiting_; ++i) {
+      const float handle = handle_.px[i];
+      const float body = body_.px[i];
       if (std::abs(handle) > band_px && std::abs(body) > band_px) continue;
       if (std::max(handle, body) < -band_px) continue;
-      for (int k = 0; k < 3; ++k) p.light[k] = double{source.response.linear(row[3 * x + k])} / source.white[k];
-      all.push_back(p);
+      full_ = count_ == most_pixels;
+      if (full_) break;
+      keep(i);
     }
+    waiting_ = 0;
   }
-  return all;
+
+  void keep(int i) {
+    kept_.x[count_] = static_cast<float>(columns_[static_cast<std::size_t>(i)]);
+    kept_.y[count_] = static_cast<float>(rows_[static_cast<std::size_t>(i)]);
+    SightLines& s = kept_.sights;
+    s.x[count_] = tried_.x[i];
+    s.y[count_] = tried_.y[i];
+    s.x_by_column[count_] = tried_.x_by_column[i];
+    s.x_by_row[count_] = tried_.x_by_row[i];
+    s.y_by_column[count_] = tried_.y_by_column[i];
+    s.y_by_row[count_] = tried_.y_by_row[i];
+    ++count_;
+  }
+
+  const StonePlace& stone_;
+  Eigen::Vector3d eye_;
+  StonePixels& kept_;
+  SightLines tried_;
+  DiscDistances handle_;
+  BodyDistances body_;
+  std::array<int, most_pixels> columns_{};
+  std::array<int, most_pixels> rows_{};
+  int waiting_ = 0;
+  Eigen::Index count_ = 0;
+  bool full_ = false;
+};
+
+}  // namespace
+
+PatchSource::PatchSource(const StonePicture& picture, const Eigen::Vector2d& place) : bgr_(&picture.bgr) {
+  const auto pixel = picture.camera.project({place.x(), place.y(), picture.shape.handle_height_m});
+  const std::array<float, 3> white = pixel ? picture.ice.at(pixel->x(), pixel->y()) : std::array{1.0F, 1.0F, 1.0F};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 256; ++i)
+      level_[k][i] = picture.response.linear(static_cast<std::uint8_t>(i)) / white[k];
+  }
+}
+
+bool PatchSource::at(float x, float y, Eigen::Array3f& light) const {
+  if (!(x >= 0.0F && y >= 0.0F && x < static_cast<float>(bgr_->cols - 1) && y < static_cast<float>(bgr_->rows - 1))) {
+    return false;
+  }
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const float u = x - static_cast<float>(column);
+  const float v = y - static_cast<float>(row);
+  const Eigen::Array3f top = at(column, row) * (1.0F - u) + at(column + 1, row) * u;
+  const Eigen::Array3f low = at(column, row + 1) * (1.0F - u) + at(column + 1, row + 1) * u;
+  light = top + v * (low - top);
+  return true;
 }
 
 namespace {
 
-/// The mean of three samples a pixel apart; false where the picture ends.
-bool mean_light(const PatchSource& source, const Eigen::Vector2d& from, const Eigen::Vector2d& step, Light& mean) {
-  mean.setZero();
-  for (int i = 0; i < 3; ++i) {
-    Light light;
-    if (!source.light_at(from + i * step, light)) return false;
-    mean += light / 3.0;
-  }
-  return true;
-}
-
-/// What is to the left and right of a stone, row by row.
-class Sides {
- public:
-  Sides(const PatchSource& source, const std::vector<StonePixel>& pixels) : source_(source) {
-    for (const StonePixel& p : pixels) {
-      left_ = std::min(left_, p.pixel.x());
-      right_ = std::max(right_, p.pixel.x());
+/// Every `keep`th pixel of the area, in a slanting pattern; false when there are too many.
+bool sift(const SheetCamera& camera, const StonePlace& stone, const cv::Rect& area, int keep, StonePixels& pixels) {
+  Sieve sieve(stone, camera.eMc().translation(), pixels);
+  if (area.width >= 6 && area.height >= 6) {
+    const SightTable sights(camera, area);
+    for (int y = area.y; y < area.br().y && sights.ok(); ++y) {
+      const int first = area.x + (keep - (area.x + 3 * y) % keep) % keep;
+      for (int x = first; x < area.br().x; x += keep) sieve.add(x, y, sights);
     }
   }
-
-  /// Between the two sides where they agree; nothing where they do not.
-  bool at(const Eigen::Vector2d& pixel, Light& light) const {
-    Light left;
-    Light right;
-    if (!mean_light(source_, {left_, pixel.y()}, {-1.0, 0.0}, left)) return false;
-    if (!mean_light(source_, {right_, pixel.y()}, {1.0, 0.0}, right)) return false;
-    if ((left - right).norm() > 0.15 + 0.15 * (left + right).norm()) return false;
-    const double part = (pixel.x() - left_) / std::max(1.0, right_ - left_);
-    light = left + part * (right - left);
-    return true;
-  }
-
- private:
-  const PatchSource& source_;
-  double left_ = 1e9;
-  double right_ = -1e9;
-};
-
-/// There is something of the handle's colour over the rim: its grip.
-bool grip_over(const PatchSource& source, const Eigen::Vector2d& rim, const Eigen::Vector2d& outward, double reach_px,
-               const Light& handle, const Light& behind) {
-  const Light change = handle - behind;
-  const double size = change.norm();
-  if (size < 0.1) return true;  // it could not be told
-  for (double px = 1.2; px < reach_px; px += 1.0) {
-    Light light;
-    if (!source.light_at(rim + px * outward, light)) return true;
-    const Light difference = light - behind;
-    const double part = difference.dot(change) / (size * size);
-    const double other = (difference - part * change).norm();
-    const double fading = px < 2.0 ? 0.2 : 0.0;  // of the rim itself
-    if (part > 0.25 + fading && other < 0.6 * part * size) return true;
-  }
-  return false;
+  return sieve.finish();
 }
 
 }  // namespace
 
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
-                 const Light& handle_colour, std::vector<StonePixel>& pixels) {
-  const Sides sides(source, pixels);
-  const double grip_m = 0.06;
-  for (StonePixel& p : pixels) {
-    const RegionDistance handle = handle_distance(stone, eye, p.sight);
-    const RegionDistance body = body_distance(stone, eye, p.sight);
-    const RegionDistance& outer = handle.px > body.px ? handle : body;
-    p.usable = true;
-    p.behind.setZero();
-    if (outer.px > band_px + 0.5) continue;  // nothing behind shines through
-    const Eigen::Vector2d rim = p.pixel + outer.px * outer.outward;
-    const bool far_rim = &outer == &handle;
-    const bool known = far_rim && sides.at(rim + clearance_px * outer.outward, p.behind);
-    if (!known && !mean_light(source, rim + clearance_px * outer.outward, outer.outward, p.behind)) {
-      p.usable = false;
-      continue;
-    }
-    if (far_rim && handle_colour.squaredNorm() > 0.0) {
-      const double px_per_m = 1.0 / std::max(1e-9, (eye.z() * p.sight.by_pixel.col(0)).norm());
-      const double reach_px = std::clamp(grip_m * px_per_m, 2.5, 12.0);
-      p.usable = !grip_over(source, rim, outer.outward, reach_px, handle_colour, p.behind);
-    }
+void gather_stone_pixels(const PatchSource& source, const SheetCamera& camera, const StonePlace& stone, int most,
+                         StonePixels& pixels) {
+  const cv::Rect area = bounds_of(camera, stone);
+  int keep = std::max(1, area.area() / (3 * most));  // about a third of the rectangle lies near an outline
+  while (!sift(camera, stone, area, keep, pixels)) ++keep;
+  for (Eigen::Index i = 0; i < pixels.count(); ++i) {
+    pixels.light.row(i) = source.at(static_cast<int>(pixels.x[i]), static_cast<int>(pixels.y[i])).transpose();
   }
 }
 

@@ -4,41 +4,53 @@
 #include <Eigen/Core>
 #include <array>
 #include <opencv2/core/mat.hpp>
-#include <vector>
 
+#include "vision/detect/stone_picture.hpp"
 #include "vision/fit/stone_region.hpp"
-#include "vision/geometry/response_curve.hpp"
-#include "vision/geometry/sheet_camera.hpp"
 
 namespace hogline::vision {
 
 using Light = Eigen::Vector3d;  ///< blue, green, red; 1 is white ice
 
-struct StonePixel {
-  SightLine sight;
-  Eigen::Vector2d pixel;
-  Light light;
-  Light behind;        ///< what would be seen without the stone
-  bool usable = true;  ///< its background is known and nothing nearer hides it
+/// Light of each of a stone's pixels, channel by channel.
+using PixelColours = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3>;
+
+/// The picture near a stone, against the white ice there.
+class PatchSource {
+ public:
+  PatchSource(const StonePicture& picture, const Eigen::Vector2d& place);
+
+  /// Of a pixel of the picture.
+  Eigen::Array3f at(int x, int y) const {
+    const std::uint8_t* p = bgr_->ptr<std::uint8_t>(y) + 3 * x;
+    return {level_[0][p[0]], level_[1][p[1]], level_[2][p[2]]};
+  }
+  /// Bilinear in linear light; false outside the picture.
+  bool at(float x, float y, Eigen::Array3f& light) const;
+
+ private:
+  const cv::Mat* bgr_;
+  std::array<std::array<float, 256>, 3> level_;
 };
 
-/// Where pixels come from, and against what their light is measured.
-struct PatchSource {
-  const cv::Mat& bgr;  ///< CV_8UC3
-  const ResponseCurve& response;
-  Light white;  ///< linear light of white ice near the stone
+struct StonePixels {
+  SightLines sights;
+  Pixels x, y;
+  PixelColours light;
+  PixelColours behind;  ///< what would be seen without the stone
+  Pixels usable;        ///< 1: its background is known and nothing nearer hides it; else 0
 
-  /// Bilinear in linear light; nothing outside the picture.
-  bool light_at(const Eigen::Vector2d& pixel, Light& light) const;
+  Eigen::Index count() const { return x.size(); }
 };
 
-/// Pixels on and about the outlines of handle and body, thinned to about `most`. Empty where the stone is not in the
+/// Pixels on and about the outlines of handle and body, thinned to about `most`. None where the stone is not in the
 /// picture.
-std::vector<StonePixel> stone_pixels(const PatchSource& source, const SheetCamera& camera, const StonePlace& stone,
-                                     std::size_t most);
+void gather_stone_pixels(const PatchSource& source, const SheetCamera& camera, const StonePlace& stone, int most,
+                         StonePixels& pixels);
 
 /// Looks outward past the stone's outline for what is behind it. Pixels for which that can not be told are marked.
+/// `handle_colour` is zero while it is not known.
 void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
-                 const Light& handle_colour, std::vector<StonePixel>& pixels);
+                 const Light& handle_colour, StonePixels& pixels);
 
 }  // namespace hogline::vision

@@ -1,4 +1,5 @@
-// How far inside a stone's image a pixel lies, and how that moves with the stone: handle plate and body apart.
+// How far inside a stone's image pixels lie, and how that moves with the stone: handle plate and body apart. Of many
+// pixels at once.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,34 +8,47 @@
 
 namespace hogline::vision {
 
-/// A pixel's line of sight in e, scaled to descend by one metre: (x, y, -1); and how it turns from pixel to pixel.
-struct SightLine {
-  Eigen::Vector2d slope;     ///< metres across the ice per metre of descent
-  Eigen::Matrix2d by_pixel;  ///< d(slope)/d(pixel)
+inline constexpr int most_pixels = 512;
+
+/// One number for each pixel of a stone. Nothing is allocated.
+using Pixels = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, most_pixels, 1>;
+
+/// Pixels' lines of sight in e, scaled to descend by one metre: (x, y, -1); and how they turn from pixel to pixel.
+struct SightLines {
+  Pixels x, y;                   ///< metres across the ice per metre of descent
+  Pixels x_by_column, x_by_row;  ///< per pixel
+  Pixels y_by_column, y_by_row;
+
+  void resize(Eigen::Index count);
 };
 
-/// What a stone's image depends on. The first two are the stone's own, the rest is common to all stones of a club.
+/// What a stone's image depends on. The place is the stone's own, the rest is common to all stones of a club.
 struct StonePlace {
   Eigen::Vector2d place;  ///< in e, m
   StoneShape shape;
 };
 
-/// Signed distance in pixels, positive inside, with its derivatives per metre: by the place (x, y), the handle's
-/// thickness, the body's radius and half height, the handle's height and radius.
-struct RegionDistance {
-  double px = 0.0;
-  Eigen::Vector2d outward = Eigen::Vector2d::Zero();  ///< unit, in the picture
-  Eigen::Matrix<double, 7, 1> by = Eigen::Matrix<double, 7, 1>::Zero();
-  double height = 0.0;  ///< where on the outline: for the body the sine of its elevation, -1 at the foot, 1 at the top
+/// Signed distances in pixels, positive inside, of a level disc or of a range of them, with derivatives per metre.
+struct DiscDistances {
+  Pixels px;
+  Pixels outward_x, outward_y;  ///< unit, in the picture
+  Pixels by_x, by_y;            ///< by the place
+  Pixels by_height, by_radius;
+  Pixels part;  ///< how far down the wall, 0..1 of the thickness: the derivative by it is -part * by_height
 };
 
-/// Of the handle's plate: a disc with its upper rim at the known radius and height, and as thick as the shape says.
-RegionDistance handle_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight);
+/// The same of the body.
+struct BodyDistances {
+  Pixels px;
+  Pixels outward_x, outward_y;
+  Pixels by_x, by_y;
+  Pixels by_radius, by_half_height;
+  Pixels height;  ///< of the outline's point next to the pixel: -1 the foot, 0 the waist, 1 the top
+};
 
-/// Of the plate's upper face alone: its wall is seen below it, in another light.
-RegionDistance face_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight);
-
-/// Of the body. Precondition: the eye is outside it.
-RegionDistance body_distance(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLine& sight);
+/// `eye` is the camera in e. The handle's plate is an upright cylinder: its face at the top, its wall below.
+void handle_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d);
+void face_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d);
+void body_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, BodyDistances& d);
 
 }  // namespace hogline::vision

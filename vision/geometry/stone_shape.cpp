@@ -6,6 +6,17 @@
 
 namespace hogline::vision {
 
+// In the plane of the line of sight: the edge's corner would be 1 from the arc's middle along both axes, the arc passes
+// the line of sight at 1, and what is left between the two parallels is taken along the vertical.
+double rim_lowering_m(const StoneShape& shape, double range_m, double eye_m) {
+  const double down = eye_m - shape.handle_height_m;
+  const double length = std::hypot(down, range_m);
+  if (!(range_m > 0.0) || !(length > 0.0)) return 0.0;
+  const double sine = down / length;
+  const double cosine = range_m / length;
+  return shape.rim_rounding_m * (sine + cosine - 1.0) / cosine;
+}
+
 Bearing bearing_of(const Eigen::Vector2d& place, const Eigen::Vector3d& camera) {
   const Eigen::Vector2d to = place - camera.head<2>();
   const double range_m = to.norm();

@@ -15,11 +15,15 @@ struct StoneShape {
   double handle_radius_m = 0.095;
   double handle_height_m = 0.125;     ///< of the plate's upper rim over the ice
   double handle_thickness_m = 0.015;  ///< from the upper rim down to where the granite begins
-  double rim_rounding_m = 0.001;      ///< how much lower a rounded rim is seen than it is measured: for an edge of 3 mm
-                                      ///< radius 0.5 mm from 10 degrees above the ice, 1.4 mm from 40 (geometry)
+  double rim_rounding_m = 0.0;        ///< radius of the upper rim's edge, where it was measured; 0: sharp
   double body_radius_m = 0.1435;      ///< at most 0.1455 by the rules' girth (R2 "Curling stones")
   double body_half_height_m = 0.057;  ///< of the ellipsoid that stands for the body; at least 0.0572 by the rules
 };
+
+/// How much lower than its height the upper rim of a rounded edge is seen at a distance along the ice: the line of
+/// sight that just passes the edge touches it below the rim (geometry: an edge of 3 mm radius is seen 0.5 mm lower from
+/// 10 degrees above the ice, 1.6 mm lower from 40).
+double rim_lowering_m(const StoneShape& shape, double range_m, double eye_m);
 
 /// The directions at a place on the sheet as the camera sees it.
 struct Bearing {

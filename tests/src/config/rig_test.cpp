@@ -49,6 +49,28 @@ TEST(Rig, is_read_in_SI_units_and_radians) {
   EXPECT_DOUBLE_EQ(rig.stone.radius_m, 0.095);
 }
 
+TEST(Rig, knows_the_teams_by_name_and_hue) {
+  const Rig usual = parse_rig(good, "rig.yaml");
+  EXPECT_EQ(usual.stone.teams[0].name, "red");
+  EXPECT_EQ(usual.stone.teams[1].name, "yellow");
+  EXPECT_EQ(usual.stone.rim_rounding_m, 0.0);
+  const std::string key = "handle_height_m: 0.125, handle_rim_rounding_m: 0.003, ";
+  const auto teams = [&key](const std::string& list) {
+    return parse_rig(with("handle_height_m: 0.125", key + "teams: " + list), "rig.yaml").stone;
+  };
+  const StoneHandle stone = teams("[{name: blue, hue_deg: 230}, {name: green, hue_deg: 120}]");
+  EXPECT_EQ(stone.teams[0].name, "blue");
+  EXPECT_NEAR(stone.teams[1].hue_rad, 2.0 * std::numbers::pi / 3.0, 1e-12);
+  EXPECT_DOUBLE_EQ(stone.rim_rounding_m, 0.003);
+  for (const char* wrong : {"[{name: blue, hue_deg: 230}]", "[{name: blue, hue_deg: 230}, {name: blue, hue_deg: 0}]",
+                            "[{name: blue, hue_deg: 350}, {name: red, hue_deg: 5}]",
+                            "[{name: unknown, hue_deg: 230}, {name: red, hue_deg: 5}]",
+                            "[{name: blue, hue_deg: 400}, {name: red, hue_deg: 5}]",
+                            "[{name: '', hue_deg: 230}, {name: red, hue_deg: 5}]"}) {
+    EXPECT_THROW(teams(wrong), ConfigError) << wrong;
+  }
+}
+
 TEST(Rig, takes_the_paint_depth_as_given_unless_it_says_how_sure_it_is) {
   EXPECT_EQ(parse_rig(good, "rig.yaml").camera("near").paint_depth_sigma_m, 0.0);
   const Rig rig = parse_rig(with("refractive_index", "paint_depth_sigma_m: 0.003, refractive_index"), "rig.yaml");

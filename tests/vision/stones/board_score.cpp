@@ -10,6 +10,7 @@ namespace hogline::vision::testing {
 namespace {
 
 constexpr double same_place_m = 0.12;
+constexpr double hidden_rim = 0.15;
 
 bool can_be_seen(const hogline::testing::BoardStone& s) {
   return s.handle_seen >= 0.5 && s.handle_seen + s.body_seen >= 0.8;
@@ -48,13 +49,17 @@ void score(std::uint64_t seed, BoardScore& total) {
   std::vector<bool> used(seen.stones.size(), false);
   for (const auto& truth : board.stones) {
     const bool wanted = can_be_seen(truth);
+    const bool between = !wanted && truth.rim_seen >= hidden_rim;
     total.stones += wanted ? 1 : 0;
+    total.between += between ? 1 : 0;
+    total.hidden += !wanted && !between ? 1 : 0;
     bool hit = false;
     for (std::size_t i = 0; i < seen.stones.size() && !hit; ++i) {
       const StoneSighting& s = seen.stones[i];
       const double error = std::hypot(s.x_m - truth.x_m, s.y_m - truth.y_m);
       if (used[i] || error > same_place_m) continue;
       used[i] = hit = true;
+      total.between_found += between ? 1 : 0;
       if (!wanted) break;
       ++total.found;
       total.errors_m.push_back(error);

@@ -11,8 +11,11 @@ struct BoardScore {
   int boards = 0;
   int stones = 0;  ///< that can be seen: at least half of the handle, or a third and some of the body
   int found = 0;
-  int ghosts = 0;      ///< reported where no stone is
-  int wrong_team = 0;  ///< red for yellow or the other way round
+  int between = 0;        ///< neither in sight nor hidden
+  int between_found = 0;  ///< of these
+  int hidden = 0;         ///< less than 15 % of the handle's rim can be seen
+  int ghosts = 0;         ///< reported where no stone is
+  int wrong_team = 0;     ///< red for yellow or the other way round
   int unknown_team = 0;
   std::vector<double> errors_m;        ///< of all found
   std::vector<double> house_errors_m;  ///< of those within 2 m of the tee

@@ -18,5 +18,7 @@ int main(int argc, char** argv) {
       "mm RMS, %.1f mm within 2 m of the tee, %.1f mm at most\n",
       score.boards, score.stones, 100.0 * score.recall(), 100.0 * score.precision(), score.wrong_team,
       score.unknown_team, 1e3 * score.rms(score.errors_m), 1e3 * score.rms(score.house_errors_m), 1e3 * worst);
+  std::printf("beside them %d stones of which less can be seen, %d of them found; %d hidden\n", score.between,
+              score.between_found, score.hidden);
   return 0;
 }

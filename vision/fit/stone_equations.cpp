@@ -1,0 +1,131 @@
+// The normal equations of one stone: StoneModel::linearise and its steps.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "vision/fit/light_parts.hpp"
+#include "vision/fit/stone_model.hpp"
+
+namespace hogline::vision {
+
+/// Sums over the pixels: of place and shared numbers, of one part's colours, and what they share.
+struct StoneModel::Equations {
+  ModelMatrix normal = ModelMatrix::Zero();
+  ModelVector right = ModelVector::Zero();
+
+  void add(const Slopes& slopes, const Basis& basis, const Pixels& residuals, const Pixels& weights);
+};
+
+// The colours of this part are eliminated at once: they are its own.
+void StoneModel::Equations::add(const Slopes& slopes, const Basis& basis, const Pixels& residuals,
+                                const Pixels& weights) {
+  Eigen::Matrix<double, 3, model_numbers> shared;
+  Eigen::Matrix3d colours = 1e-6 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d colours_right;
+  for (int i = 0; i < model_numbers; ++i) {
+    const Pixels weighed = weights * slopes.col(i);
+    right[i] += static_cast<double>((weighed * residuals).sum());
+    for (int j = 0; j <= i; ++j) normal(i, j) += static_cast<double>((weighed * slopes.col(j)).sum());
+    for (int j = 0; j < 3; ++j) shared(j, i) = static_cast<double>((weighed * basis.col(j)).sum());
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Pixels weighed = weights * basis.col(i);
+    colours_right[i] = static_cast<double>((weighed * residuals).sum());
+    for (int j = 0; j < 3; ++j) colours(i, j) += static_cast<double>((weighed * basis.col(j)).sum());
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> solver(colours);
+  normal.triangularView<Eigen::Lower>() -= shared.transpose() * solver.solve(shared);
+  right -= shared.transpose() * solver.solve(colours_right);
+}
+
+void StoneModel::linearise(const SharedLook& look) {
+  find_colours(look);
+  residuals_.resize(seen_.count(), 3);
+  for (int part = 0; part < 3; ++part) find_residual(part);
+
+  // Shot noise grows with the light; what is behind was measured with noise, too.
+  const Pixels noise = 0.02F + 0.5F * (light_.col(0) + behind_.col(0)).max(0.0F);
+  const Pixels sizes =
+      ((residuals_.col(0).square() + colour_weight * (residuals_.col(1).square() + residuals_.col(2).square())) / noise)
+          .sqrt();
+  weigh(noise, sizes);
+
+  Equations sums;
+  for (int part = 0; part < 3; ++part) {
+    find_slopes(part, look);
+    const Pixels weights = (part == 0 ? 1.0F : colour_weight) * weight_;
+    sums.add(slopes_, blurred(part).basis(shade_), residuals_.col(part), weights);
+  }
+  normal_ = sums.normal.selfadjointView<Eigen::Lower>();
+  right_ = sums.right;
+  summarise(sizes, noise);
+  find_scale(sizes);
+}
+
+void StoneModel::find_residual(int part) {
+  const Blurred& b = blurred(part);
+  const Eigen::Vector3f colour = colours_.col(part).cast<float>();
+  const Pixels stone = colour[1] + shade_ * colour[2];
+  const Pixels under = b.body * stone + (1.0F - b.body) * behind_.col(part);
+  residuals_.col(part) = light_.col(part) - (b.plate * colour[0] + (1.0F - b.handle) * under);
+}
+
+void StoneModel::find_slopes(int part, const SharedLook& look) {
+  const Blurred& b = blurred(part);
+  const Eigen::Vector3f colour = colours_.col(part).cast<float>();
+  const auto wall = static_cast<float>(look.wall_light);
+  const Pixels stone = colour[1] + shade_ * colour[2];
+  const Pixels under = b.body * stone + (1.0F - b.body) * behind_.col(part);
+  const Pixels handle = (wall * colour[0] - under) * b.by_handle;
+  const Pixels face = (1.0F - wall) * colour[0] * b.by_face;
+  const Pixels body = (1.0F - b.handle) * (stone - behind_.col(part)) * b.by_body;
+  slopes_.resize(seen_.count(), model_numbers);
+  slopes_.col(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
+  slopes_.col(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
+  slopes_.col(2) = -handle * handle_.part * handle_.by_height;
+  slopes_.col(3) = body * body_.by_radius;
+  slopes_.col(4) = body * body_.by_half_height;
+  slopes_.col(5) = handle * handle_.by_radius + face * face_.by_radius;
+  slopes_.col(6) = (b.handle - b.face) * colour[0];
+  const auto blur = static_cast<float>(part == 0 ? look.blur_px : look.colour_blur_px);
+  slopes_.col(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
+  slopes_.col(part == 0 ? 8 : 7).setZero();
+}
+
+// Residuals beyond the scale of the last step count less and less.
+void StoneModel::weigh(const Pixels& noise, const Pixels& sizes) {
+  if (scale_ > 0.0) {
+    const auto scale = static_cast<float>(scale_);
+    weight_ = used_ / (noise * (1.0F + (sizes / scale).square()));
+  } else {
+    weight_ = used_ / noise;
+  }
+}
+
+void StoneModel::find_scale(const Pixels& sizes) {
+  std::array<float, most_pixels> used;
+  std::size_t count = 0;
+  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
+    if (used_[i] > 0.0F) used[count++] = sizes[i];
+  }
+  if (count == 0) return;
+  const auto middle = used.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(used.begin(), middle, used.begin() + static_cast<std::ptrdiff_t>(count));
+  scale_ = std::max(0.02, 2.0 * static_cast<double>(*middle));
+}
+
+void StoneModel::summarise(const Pixels& sizes, const Pixels& noise) {
+  const auto left = static_cast<double>((weight_ * sizes.square() * noise).sum());
+  const auto plain_left = static_cast<double>((weight_ * residuals_.col(0).square()).sum());
+  const PixelColours change = light_ - behind_;
+  const auto difference = static_cast<double>(
+      (weight_ * (change.col(0).square() + colour_weight * (change.col(1).square() + change.col(2).square()))).sum());
+  const auto weights = static_cast<double>(weight_.sum());
+  const double count = std::max(1.0, static_cast<double>(used_.sum()));
+  variance_ = left / (2.0 * count);
+  residual_ = weights > 0.0 ? std::sqrt(plain_left / weights) : 0.0;
+  explained_ = difference > 0.0 ? 1.0 - left / difference : 0.0;
+}
+
+}  // namespace hogline::vision
