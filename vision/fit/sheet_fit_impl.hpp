@@ -23,6 +23,7 @@ struct SheetFit::Impl {
     scratch.reserve(2000);
     step.residual_px.reserve(2000);
     step.weight.reserve(2000);
+    step.spread_px.reserve(2000);
     hidden.reserve(2000);
     result.sites.reserve(2000);
     result.features.reserve(paint_feature_count);
