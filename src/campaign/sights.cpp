@@ -19,7 +19,7 @@ namespace hogline::campaign {
 namespace {
 
 constexpr double not_measured_m = 1.0;  // a claimed sigma beyond this is no measurement
-constexpr double held_beyond_m = 0.3;   // how far the outermost figures are trusted
+constexpr double held_beyond_m = 1.0;   // how far the outermost figures are trusted
 constexpr int least_looks = 40;         // in one stretch of distance
 constexpr std::array edges_m{0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0};
 
@@ -105,8 +105,10 @@ SightError error_of(const Tracks& tracks, const std::vector<double>& claimed, do
   const double drift = covariance.drift_variance();
   e.drift = std::sqrt(drift);
   e.noise = std::sqrt(std::max(covariance.at(0) - drift, 0.0));
-  keep_sum += covariance.keep() * looks;
-  keep_weight += looks;
+  // What drifts most says most of how long drifts last.
+  const double weight = covariance.at(0) > 0.0 ? looks * drift / covariance.at(0) : 0.0;
+  keep_sum += covariance.keep() * weight;
+  keep_weight += weight;
   return e;
 }
 
