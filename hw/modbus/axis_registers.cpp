@@ -31,7 +31,7 @@ std::uint16_t next_sequence(std::uint16_t sequence) {
 
 std::optional<std::int16_t> rate_argument(double radps) {
   const double argument = std::round(radps * 1e3);
-  if (!std::isfinite(argument) || std::abs(argument) > 32767.0) return std::nullopt;
+  if (!std::isfinite(argument) || argument < -32768.0 || argument > 32767.0) return std::nullopt;
   return static_cast<std::int16_t>(argument);
 }
 

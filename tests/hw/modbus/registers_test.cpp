@@ -77,6 +77,8 @@ TEST(AxisRegisters, rates_that_do_not_fit_are_refused) {
   EXPECT_FALSE(axis::rate_argument(std::numeric_limits<double>::infinity()));
   EXPECT_FALSE(axis::rate_argument(32.768));
   EXPECT_EQ(axis::rate_argument(-32.767), std::int16_t{-32767});
+  EXPECT_EQ(axis::rate_argument(-32.768), std::int16_t{-32768}) << "the least that an int16 holds";
+  EXPECT_FALSE(axis::rate_argument(-32.769));
 }
 
 RC_GTEST_PROP(AxisRegisters, rates_survive_the_round_trip, ()) {
