@@ -182,7 +182,8 @@ TEST(SupervisorLaw, NoStoneLeavesOutsideTheWindowHoweverItsSensorsErrWithinTheir
         release_passes({.odometry_share = 1.0, .look_share = 1.0, .missing_share = 0.1}, between(1.0, 1.3)) ? 1 : 0;
   }));
   RecordProperty("passed", passed);
-  EXPECT_GT(passed, 5) << "the law is not empty";
+  // About ten of two hundred random orders fall where a release may pass; none at all has odds of e^-10.
+  EXPECT_GT(passed, 0) << "the law is not empty";
 }
 
 TEST(SupervisorLaw, NorWhenSomeLooksAreWild) {
