@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace hogline::servo {
 namespace {
@@ -20,6 +21,9 @@ constexpr double encoder_sigma_mps = 0.003;
 // Of the mean of normalised innovations: each look counts for so much, and alone they stay within the limit.
 constexpr double surprise_share = 0.2;
 constexpr double surprise_limit = 1.2;  // 3.6 standard deviations
+
+constexpr int insisting_looks = 5;
+constexpr double longest_slip_m = 0.15;  // what wheels can have lost before it is noticed
 
 constexpr double slip_share = 0.2;     // of the way that spinning wheels measure
 constexpr double scale_doubt = 0.015;  // of the odometry's scale after a slip
@@ -72,16 +76,30 @@ void HogDistanceModel::drive(State& state, double dt_s, const Input& input) cons
   state.acceleration_mps2 += acceleration_gain_per_s * off_mps;
 }
 
+// Looks that agree with each other, and not with what is believed: one that errs alone is not followed by its like.
+bool HogDistanceModel::insisted_on(State& state, double innovation, double sigma_m) {
+  const bool agrees = std::abs(innovation - state.refused_by_m) <= gate_sigma * std::numbers::sqrt2 * sigma_m;
+  state.refused = state.refused > 0 && agrees ? state.refused + 1 : 1;
+  state.refused_by_m = innovation;
+  return state.refused >= insisting_looks && std::abs(innovation) <= longest_slip_m;
+}
+
 bool HogDistanceModel::correct(State& state, const Measurement& measurement) const {
   const double innovation = measurement.hog_distance_m - state.hog_distance_m;
-  double variance = state.distance_distance + measurement.sigma_m * measurement.sigma_m;
-  if (innovation * innovation > gate_sigma * gate_sigma * variance) return false;
-  state.surprise += surprise_share * (innovation / std::sqrt(variance) - state.surprise);
-  if (std::abs(state.surprise) > surprise_limit) {
+  const double look_variance = measurement.sigma_m * measurement.sigma_m;
+  const double normalised = innovation / std::sqrt(state.distance_distance + look_variance);
+  const bool refused = std::abs(normalised) > gate_sigma;
+  if (refused && !insisted_on(state, innovation, measurement.sigma_m)) return false;
+  state.surprise += surprise_share * (normalised - state.surprise);
+  if (refused) state.scale_scale += scale_doubt * scale_doubt;
+  if (refused || std::abs(state.surprise) > surprise_limit) {
     state.distance_distance += innovation * innovation;
-    variance += innovation * innovation;
     state.surprise = 0.0;
   }
+  state.refused = 0;
+  const double told_before = look_variance / (state.distance_distance + look_variance);
+  const double worth = 1.0 / (1.0 + (1.0 / measurement.counts_as - 1.0) * told_before);
+  const double variance = state.distance_distance + look_variance / worth;
   const double distance_gain = state.distance_distance / variance;
   const double scale_gain = state.distance_scale / variance;
   state.hog_distance_m += distance_gain * innovation;
@@ -101,9 +119,9 @@ void HogDistanceFilter::odometry(Stamp stamp, double forward_mps, double yaw_rad
   fusion_.input(stamp, {forward_mps * std::cos(yaw_rad), slipping});
 }
 
-Fusion HogDistanceFilter::hog_distance(Stamp stamp, double hog_distance_m, double sigma_m) {
-  assert(std::isfinite(hog_distance_m) && sigma_m > 0.0);
-  const Fusion fusion = fusion_.measure(stamp, {hog_distance_m, sigma_m});
+Fusion HogDistanceFilter::hog_distance(Stamp stamp, double hog_distance_m, double sigma_m, double counts_as) {
+  assert(std::isfinite(hog_distance_m) && sigma_m > 0.0 && counts_as > 0.0);
+  const Fusion fusion = fusion_.measure(stamp, {hog_distance_m, sigma_m, counts_as});
   if (fusion == Fusion::accepted) gated_in_a_row_ = 0;
   if (fusion == Fusion::gated) ++gated_, ++gated_in_a_row_;
   return fusion;
