@@ -19,11 +19,11 @@ using hw::sim::mixed_bits;
 
 constexpr double brakes_mps2 = 2.5;     // the practice rig's quick stop
 constexpr double brakes_lag_s = 0.1;    // from the order to full braking
-constexpr double whole_throw_s = 13.5;  // from the beginning to standstill, without a fault
+constexpr double whole_throw_s = 14.5;  // from the beginning to standstill, without a fault
 constexpr double slowest_mps = 1.9;
 constexpr double fastest_mps = 2.8;
-constexpr std::array endings{Ending::thrown,       Ending::kept,           Ending::too_late,   Ending::lost,
-                             Ending::carried_over, Ending::outside_window, Ending::not_stopped};
+constexpr std::array endings{Ending::thrown, Ending::kept,         Ending::too_late,       Ending::set_down,
+                             Ending::lost,   Ending::carried_over, Ending::outside_window, Ending::not_stopped};
 
 Moment moment_of(std::uint64_t seed, std::size_t fault, int number) {
   const std::uint64_t bits = mixed_bits(mixed_bits(mixed_bits(seed) + fault) + static_cast<std::uint64_t>(number));
@@ -49,13 +49,15 @@ Ending ending_of(const RandomStrike& s) {
   const Finding& f = s.struck.finding;
   if (!s.struck.standing) return Ending::not_stopped;
   if (f.over_the_line) return s.struck.room_m < s.needed_m ? Ending::too_late : Ending::carried_over;
+  if (s.struck.set_down) return Ending::set_down;
   if (s.fault->expect == Expect::stops_without_stone && !f.held) return Ending::lost;
   if (!f.result.release) return Ending::kept;
   return std::abs(s.struck.release_error_m) <= s.struck.release_limit_m ? Ending::thrown : Ending::outside_window;
 }
 
 bool as_it_should(Ending ending) {
-  return ending == Ending::thrown || ending == Ending::kept || ending == Ending::too_late || ending == Ending::lost;
+  return ending == Ending::thrown || ending == Ending::kept || ending == Ending::too_late ||
+         ending == Ending::set_down || ending == Ending::lost;
 }
 
 std::string quoted(const std::string& text) {
@@ -82,6 +84,8 @@ const char* to_string(Ending ending) {
       return "stops, stone kept";
     case Ending::too_late:
       return "too late to brake";
+    case Ending::set_down:
+      return "stands by the stone in the hack";
     case Ending::lost:
       return "stone lost by the jaws";
     case Ending::carried_over:
@@ -97,7 +101,9 @@ const char* to_string(Ending ending) {
 std::vector<const Case*> faults_of_any_moment() {
   std::vector<const Case*> chosen;
   for (const Case& fault : fault_table()) {
-    const bool any_moment = fault.strike != Strike::power_on && fault.strike != Strike::braking && !fault.prepare;
+    const bool bound = fault.strike == Strike::power_on || fault.strike == Strike::rehearsing ||
+                       fault.strike == Strike::set_down || fault.strike == Strike::braking;
+    const bool any_moment = !bound && !fault.prepare;
     const bool again = fault.injected.starts_with("the same");
     if (any_moment && !again) chosen.push_back(&fault);
   }

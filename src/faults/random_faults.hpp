@@ -15,6 +15,7 @@ enum class Ending {
   thrown,          ///< the stone was let go in its window, and the robot stands
   kept,            ///< the robot stands before the line with the stone
   too_late,        ///< it stands with the stone in the line, which no brake could have prevented
+  set_down,        ///< it stands in the hack, and the stone beside its jaws: it was being tried on
   lost,            ///< the fault itself took the stone from the jaws; the robot stands
   carried_over,    ///< it stands with the stone in the line, though brakes could have prevented that
   outside_window,  ///< the stone was let go elsewhere
@@ -32,7 +33,7 @@ struct RandomStrike {
 };
 
 /// Those of the table that can strike at any moment, each once: not those that are there from power-on, nor those that
-/// strike while the robot brakes for another.
+/// belong to the trial of the jaws, nor those that strike while the robot brakes for another.
 std::vector<const Case*> faults_of_any_moment();
 
 /// `per_fault` of each, `jobs` at a time; the order and the outcome depend on the seed alone. `tick` is called after
