@@ -1,6 +1,7 @@
 // Distance to the hog line while running: wheel odometry carries it, low views correct it at their own stamps.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "servo/delayed_fusion.hpp"
@@ -15,7 +16,7 @@ struct HogDistanceEstimate {
   double speed_sigma_mps = 0.0;
   double acceleration_mps2 = 0.0;  ///< along e's y, of the last tenth of a second
   double acceleration_sigma_mps2 = 0.0;
-  double scale = 1.0;  ///< true over measured distance
+  double scale = 1.0;  ///< true over measured distance, at this acceleration
   double scale_sigma = 0.0;
 };
 
@@ -26,15 +27,18 @@ struct Crossing {
   double hog_distance_sigma_m = 0.0;  ///< of the body when it crosses
 };
 
-/// Two-state extended Kalman filter (distance, odometry scale). Speed and acceleration are the wheels', smoothed by an
-/// alpha-beta filter (Kalata 1984): an acceleration that changes with 3 m/s3 is 0.15 m/s2 behind. Looks that go on
-/// falling to one side say that the wheels have slipped: the distance is then less sure, and soon found again. So do
-/// looks that are refused one after the other and agree with each other: what no slip explains stays refused.
+/// Extended Kalman filter of distance, odometry scale and creep: wheels that pull turn a little faster than they roll,
+/// in proportion to the acceleration, and what the scale seems to be while speeding up is not what it is afterwards.
+/// Speed and acceleration are the wheels', smoothed by an alpha-beta filter (Kalata 1984): an acceleration that changes
+/// with 3 m/s3 is 0.15 m/s2 behind. Looks that go on falling to one side say that the wheels have slipped: the distance
+/// is then less sure, and soon found again. So do looks that are refused one after the other and agree with each other:
+/// what no slip explains stays refused.
 class HogDistanceModel {
  public:
   struct State {
     double hog_distance_m = 0.0;
-    double scale = 1.0;
+    double scale = 1.0;         ///< true over measured distance, of wheels that do not pull
+    double creep_s2pm = 0.0;    ///< by so much less per acceleration
     double odometry_mps = 0.0;  ///< measured, along e's y, in force since the last input
     double speed_mps = 0.0;     ///< the same, smoothed
     double acceleration_mps2 = 0.0;
@@ -42,9 +46,10 @@ class HogDistanceModel {
     double surprise = 0.0;      ///< mean of the last looks' normalised innovations
     int refused = 0;            ///< looks in a row that were gated and agree with each other,
     double refused_by_m = 0.0;  ///< the last of them by so much
-    double distance_distance = 0.0;
-    double distance_scale = 0.0;
-    double scale_scale = 0.0;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of distance, scale and creep
+
+    double pulled_scale() const { return scale - creep_s2pm * acceleration_mps2; }
+    double pulled_scale_variance() const;
   };
   struct Input {
     double odometry_mps = 0.0;
