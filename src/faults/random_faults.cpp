@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <mutex>
 #include <thread>
@@ -110,30 +111,50 @@ std::vector<const Case*> faults_of_any_moment() {
   return chosen;
 }
 
+std::span<const Ending> all_endings() { return endings; }
+
+RandomStrike drawn_strike(const std::vector<const Case*>& faults, const StrikePlace& place, std::uint64_t seed) {
+  RandomStrike s;
+  s.fault = faults.at(place.fault);
+  s.number = place.number;
+  s.moment = moment_of(seed, place.fault, place.number);
+  return s;
+}
+
 std::vector<RandomStrike> strike_at_random(const std::vector<const Case*>& faults, int per_fault, std::uint64_t seed,
-                                           int jobs, const std::function<void()>& tick) {
-  const int count = static_cast<int>(faults.size()) * per_fault;
-  std::vector<RandomStrike> strikes(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
+                                           int jobs, const StrikeTick& tick, const KnownStrikes& known) {
+  const std::size_t count = faults.size() * static_cast<std::size_t>(per_fault);
+  std::vector<RandomStrike> strikes(count);
+  std::atomic<std::size_t> next{0};
   std::mutex mutex;
+  std::exception_ptr failure;
   const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      RandomStrike& s = strikes[static_cast<std::size_t>(i)];
-      const auto which = static_cast<std::size_t>(i / per_fault);
-      s.fault = faults[which];
-      s.number = i % per_fault;
-      s.moment = moment_of(seed, which, s.number);
+    for (std::size_t i = next++; i < count; i = next++) {
+      const StrikePlace place{i % faults.size(), static_cast<int>(i / faults.size())};
+      RandomStrike& s =
+          strikes[place.fault * static_cast<std::size_t>(per_fault) + static_cast<std::size_t>(place.number)];
+      if (const auto found = known.find(place); found != known.end()) {
+        s = found->second;
+        continue;
+      }
+      s = drawn_strike(faults, place, seed);
       s.struck = strike_at(*s.fault, s.moment);
       s.needed_m = needed_m(*s.fault, s.struck.finding.speed_mps);
       s.ending = ending_of(s);
       const std::lock_guard lock(mutex);
-      if (tick) tick();
+      try {
+        if (tick && !failure) tick(place, s);
+      } catch (...) {  // a full disk: the others end, too
+        failure = std::current_exception();
+        next = count;
+      }
     }
   };
   std::vector<std::jthread> crew;
   for (int i = 1; i < jobs; ++i) crew.emplace_back(work);
   work();
   crew.clear();
+  if (failure) std::rethrow_exception(failure);
   return strikes;
 }
 

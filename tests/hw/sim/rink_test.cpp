@@ -176,7 +176,7 @@ TEST(Rink, a_scripted_throw_goes_through_every_bus) {
 
 TEST(Rink, a_stone_set_down_in_the_hack_is_gripped_again_and_not_delivered) {
   Program program(scenario_of(3));
-  ASSERT_TRUE(program.boot_and_enable()) << program.faults();
+  ASSERT_TRUE(program.step_until([&] { return program.gripper.state().jaws == JawState::holding; }, 1s));
   const auto& truth = program.rink.truth();
   const double y_m = truth.stone.y_m;
   for (int i = 0; i < 3; ++i) {
@@ -204,9 +204,9 @@ TEST(Rink, a_stone_set_down_in_the_hack_is_gripped_again_and_not_delivered) {
 
 TEST(Rink, jaws_that_close_beside_the_stone_close_on_nothing) {
   Program program(scenario_of(3));
-  ASSERT_TRUE(program.boot_and_enable()) << program.faults();
   program.gripper.release();
   ASSERT_TRUE(program.step_until([&] { return program.rink.truth().set_down.has_value(); }, 1s));
+  ASSERT_TRUE(program.boot_and_enable()) << program.faults();
   program.ramp_to(-2.0, 4.0);  // the robot backs off
   program.ramp_to(0.0, 4.0);
   program.gripper.grip();
