@@ -17,9 +17,10 @@ struct ReceivedMessage {
 
 /// What came of a message handed to send().
 enum class TeamSendResult {
-  sent,     ///< handed to the transport, which repeats it until it is heard where its kind is reliable
-  refused,  ///< not finite, or longer than its kind allows: nobody would accept it
-  down,     ///< the link is broken; state() says why
+  sent,       ///< handed to the transport, which repeats it until it is heard where its kind is reliable
+  refused,    ///< not finite, or longer than its kind allows: nobody would accept it
+  forbidden,  ///< this robot's keys do not allow it to say such a thing
+  down,       ///< the link is broken; state() says why
 };
 
 struct TeamLinkState {

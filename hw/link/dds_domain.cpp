@@ -23,20 +23,23 @@ OpenDomains& open_domains() {
 
 }  // namespace
 
-std::shared_ptr<DdsDomain> DdsDomain::open(std::uint32_t number, const std::string& xml) {
+std::shared_ptr<DdsDomain> DdsDomain::open(std::uint32_t number, const std::string& xml, bool alone) {
   OpenDomains& domains = open_domains();
   const std::lock_guard lock(domains.mutex);
   if (auto shared = domains.by_number[number].lock()) {
+    if (alone || shared->alone_)
+      throw LinkError(fmt::format("DDS domain {} with security takes a process for each robot", number));
     if (shared->xml_ == xml) return shared;
     throw LinkError(
         fmt::format("DDS domain {} is open in this process with other addresses or another interface", number));
   }
-  std::shared_ptr<DdsDomain> made(new DdsDomain(number, xml));
+  std::shared_ptr<DdsDomain> made(new DdsDomain(number, xml, alone));
   domains.by_number[number] = made;
   return made;
 }
 
-DdsDomain::DdsDomain(std::uint32_t number, std::string xml) : number_(number), xml_(std::move(xml)) {
+DdsDomain::DdsDomain(std::uint32_t number, std::string xml, bool alone)
+    : number_(number), xml_(std::move(xml)), alone_(alone) {
   handle_ = dds_create_domain(number_, xml_.c_str());
   if (handle_ < 0) throw LinkError(fmt::format("DDS domain {}: {}", number_, dds_strretcode(handle_)));
 }

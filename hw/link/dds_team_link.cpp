@@ -9,6 +9,7 @@
 namespace hogline::hw::link {
 namespace {
 
+constexpr std::int32_t forbidden = 0;  // no handle of DDS's
 constexpr std::size_t emergency_stop = std::variant_size_v<TeamMessage> - 1;
 
 // A handle of Cyclone DDS's, or the reason why there is none.
@@ -35,7 +36,7 @@ DdsTeamLink::~DdsTeamLink() { dds_delete(participant_); }
 
 void DdsTeamLink::open(const LinkConfig& config) {
   try {
-    domain_ = DdsDomain::open(config.domain, cyclone_xml(config));
+    domain_ = DdsDomain::open(config.domain, cyclone_xml(config), config.security.has_value());
   } catch (const LinkError& error) {
     throw LinkError(
         fmt::format("{}; is '{}' a network interface of this machine that is up?", error.what(), config.interface));
@@ -48,8 +49,8 @@ void DdsTeamLink::open(const LinkConfig& config) {
     const std::string name(topic.name);
     const std::int32_t handle =
         made(dds_create_topic(participant_, topic.type, name.c_str(), nullptr, nullptr), "topic " + name);
-    ends_[kind].writer =
-        made(dds_create_writer(participant_, handle, writer_qos(topic).get(), nullptr), "writing " + name);
+    const std::int32_t writer = dds_create_writer(participant_, handle, writer_qos(topic).get(), nullptr);
+    ends_[kind].writer = writer == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY ? forbidden : made(writer, "writing " + name);
     ends_[kind].reader =
         made(dds_create_reader(participant_, handle, reader_qos(topic).get(), nullptr), "reading " + name);
   }
@@ -68,6 +69,7 @@ TeamSendResult DdsTeamLink::send(TeamMessage message, Stamp at) {
         m.origin = {.robot = robot_, .session = state_.session, .serial = ends.serial + 1, .stamp = team_time(at)};
       },
       message);
+  if (ends.writer == forbidden) return TeamSendResult::forbidden;
   dds_return_t result = DDS_RETCODE_OK;
   const bool written = with_wire(message, [&](const void* sample) { result = dds_write(ends.writer, sample); });
   if (!written) return TeamSendResult::refused;
