@@ -45,7 +45,7 @@ std::string cyclone_xml(const LinkConfig& config) {
       "<AllowMulticast>false</AllowMulticast></General>"
       "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>"
       "<SPDPInterval>500 ms</SPDPInterval><Peers>{}</Peers></Discovery>"
-      "<Tracing><Verbosity>severe</Verbosity></Tracing>"
+      "<Tracing><Verbosity>severe</Verbosity><OutputFile>stderr</OutputFile></Tracing>"
       "</Domain>",
       escaped(config.interface), peers);
 }
