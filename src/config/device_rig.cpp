@@ -21,7 +21,8 @@ hw::TwoWheelDriveConfig no_wheels() {
 }  // namespace
 
 DeviceRig read_devices(const Rig& rig, const Section& root, const Document& document) {
-  DeviceRig devices{.rig = rig, .drive = {}, .head = {}, .modbus = {}, .gripper = {}, .arm = {}, .gyro = {}, .link = {}};
+  DeviceRig devices{
+      .rig = rig, .drive = {}, .head = {}, .modbus = {}, .gripper = {}, .arm = {}, .gyro = {}, .link = {}};
   if (root.has("drive")) devices.drive = read_drive(root.section("drive"), document);
   if (root.has("head")) {
     devices.head = read_head(root.section("head"), devices.drive.value_or(no_wheels()), document);
