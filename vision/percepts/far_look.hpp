@@ -12,9 +12,9 @@
 
 namespace hogline {
 
-/// How the camera is turned against where the plan (body, head angles, mount) puts it: the plan's pose turned by these
-/// about b's axes. Pan is counter-clockwise positive, positive tilt looks down more, positive roll turns the camera's
-/// right side down.
+/// How the camera is turned against where the plan (body, head angles, mount) puts it: pan about the vertical,
+/// counter-clockwise positive; tilt about the level axis to the left of where it looks, positive looks down more; roll
+/// about the level axis along which it looks, positive turns the camera's right side down.
 struct FarCorrection {
   double pan_rad = 0.0;
   double tilt_rad = 0.0;
@@ -38,12 +38,13 @@ struct FarPercept {
   std::string reason;  ///< why not, when !ok; empty otherwise
   Stamp stamp{};       ///< middle of the exposure
 
-  /// Each stone's covariance is of this look alone: what all stones of the picture share comes on top, and is said by
-  /// `camera` and `correction` (a tilt moves a stone by range^2 / height for each radian, along the ray).
+  /// Each stone's covariance is of this look alone. What all stones of the picture share comes on top: `covariance` of
+  /// the camera, most of it `correction.tilt_sigma_rad` (a tilt moves a stone by range^2 / height for each radian).
   std::vector<StoneSighting> stones;
   FarCorrection correction;                ///< from what the picture shows of the sheet; valid when ok
   std::array<double, 16> eMc{};            ///< the corrected pose of the camera in e, row by row; valid when ok
   std::array<double, 3> camera_sigma_m{};  ///< of its place in e: x, y, z, as after the fit
+  std::array<double, 36> covariance{};     ///< of its place (x, y, z) and its turn about e's axes, row by row
   double residual_px = 0.0;                ///< RMS of the used residuals of painted lines
   int sites_used = 0;                      ///< places on painted lines that the correction rests on
   int sites_tried = 0;
