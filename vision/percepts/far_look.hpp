@@ -54,7 +54,28 @@ struct FarPercept {
   int refused = 0;     ///< of those, how many turned out to be something else
 };
 
-/// The covariance of one of its stones with what all stones of the picture share.
-PlaceCovariance whole_covariance(const FarPercept& look, const StoneSighting& stone);
+/// The covariance of one of its stones with what all stones of the picture share: how the camera's place and turn move
+/// the point of the ice that a pixel shows. `handle_height_m` is that of the stones' rims over the ice.
+inline PlaceCovariance whole_covariance(const FarPercept& look, const StoneSighting& stone,
+                                        double handle_height_m = 0.125) {
+  const double dx = stone.x_m - look.eMc[3];
+  const double dy = stone.y_m - look.eMc[7];
+  const double dz = handle_height_m - look.eMc[11];
+  const double a = dx / dz;
+  const double b = dy / dz;
+  // d(x, y) by place and turn: the ray moves, and is followed down to the plane again.
+  const std::array<double, 6> by_x{1.0, 0.0, -a, -a * dy, dz + a * dx, -dy};
+  const std::array<double, 6> by_y{0.0, 1.0, -b, -dz - b * dy, b * dx, dx};
+  PlaceCovariance whole = stone.covariance;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double c = look.covariance[6 * i + j];
+      whole.xx_m2 += by_x[i] * c * by_x[j];
+      whole.xy_m2 += by_x[i] * c * by_y[j];
+      whole.yy_m2 += by_y[i] * c * by_y[j];
+    }
+  }
+  return whole;
+}
 
 }  // namespace hogline
