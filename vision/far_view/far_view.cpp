@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/far_view/far_verdict.hpp"
 #include "vision/far_view/far_view_impl.hpp"
 
 namespace hogline::vision {
@@ -131,7 +132,12 @@ void FarView::Impl::find_stones(const std::vector<FarPlace>& places, const FarAr
         screening.judge(picture, vote(level, places, area.whole().wider(look_around_m)), nearer);
     screening.refine(picture, stones, nearer);
 
+    std::vector<NearerStone> standing = nearer;
+    for (const JudgedStone& s : stones) {
+      if (s.doubt.empty()) standing.push_back({s.fit.place, s.fit.handle});
+    }
     for (JudgedStone& s : stones) {
+      if (s.doubt.empty()) s.doubt = doubt_of_surroundings(picture, s, standing);
       if (s.doubt.empty()) nearer.push_back({s.fit.place, s.fit.handle});
       if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
       if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
