@@ -197,7 +197,8 @@ DeviceRig devices_of(const ThrowerRig& rig) {
           .modbus = rig.modbus,
           .gripper = rig.gripper,
           .arm = rig.arm,
-          .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port}};
+          .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port},
+          .link = {}};
 }
 
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
