@@ -14,6 +14,7 @@
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults_command.hpp"
+#include "src/game_command.hpp"
 #include "src/pose_command.hpp"
 #include "src/sights_command.hpp"
 #include "src/stones_command.hpp"
@@ -248,6 +249,40 @@ CLI::App* add_faults(CLI::App& app, hogline::FaultsOptions& options) {
   return faults;
 }
 
+CLI::App* add_game(CLI::App& app, hogline::GameOptions& options) {
+  auto* game = app.add_subcommand("game", "whole ends between two strategists, on an outcome model of throws");
+  game->add_option("--ends", options.ends, "how many, without extra ones")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 20));
+  game->add_option("--team0", options.first, "who decides for the first team: built-in, or dc:PORT")
+      ->capture_default_str()
+      ->check(hogline::known_strategist);
+  game->add_option("--team1", options.second, "the same for the second team, which has the first end's hammer")
+      ->capture_default_str()
+      ->check(hogline::known_strategist);
+  game->add_option("--address", options.address, "where Digital Curling clients may connect: an IPv4 address of ours")
+      ->capture_default_str();
+  game->add_option("--thinking", options.thinking_s, "each team's time for the whole game, s")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 86400.0));
+  game->add_option("--connect", options.connect_s, "how long clients are waited for, s")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 86400.0));
+  game->add_option("--seed", options.seed, "of the ice and of the throws, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  game->add_option("--out", options.out, "folder for game.jsonl and game.dcl2")->capture_default_str();
+  game->footer(
+      "Examples:\n"
+      "  hogline game --ends 4 --seed 7\n"
+      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001\n"
+      "No robot moves: FCV1 with an ice of its own, a thrower's errors, collisions, and an ice model that learns.\n"
+      "A dc:PORT waits for a Digital Curling 3 client; doc/strategy.md says what happens to one that misbehaves.\n"
+      "Exit status: 0 played to its end, 1 stopped before, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  return game;
+}
+
 // The parser itself would only say that a word was not expected.
 void check_subcommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -278,6 +313,8 @@ int run(int argc, char** argv) {
   const auto* demo = add_demo(app, demo_options);
   hogline::DoctorOptions doctor_options;
   const auto* doctor = add_doctor(app, doctor_options);
+  hogline::GameOptions game_options;
+  const auto* game = add_game(app, game_options);
   hogline::FaultsOptions faults_options;
   const auto* faults = add_faults(app, faults_options);
   hogline::CampaignOptions campaign_options;
@@ -296,6 +333,7 @@ int run(int argc, char** argv) {
   if (*board) return hogline::run_board(board_options);
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
+  if (*game) return hogline::run_game(game_options);
   if (*faults) return hogline::run_faults(faults_options);
   if (*campaign) return hogline::run_campaign(campaign_options);
   if (*sights) return hogline::run_sights(sights_options);
