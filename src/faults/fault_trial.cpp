@@ -54,6 +54,7 @@ class Trial {
             .state = state_at_strike_,
             .room_m = room_m_,
             .standing = standing(),
+            .set_down = truth().set_down.has_value(),
             .release_error_m = release ? release->hog_distance_m - release->target_hog_distance_m : 0.0,
             .release_limit_m = request_.rig.thrower.release.tolerance_m,
             .finding = finding_};
@@ -133,7 +134,11 @@ void Trial::power_on() {
 void Trial::period() {
   for (Duration left = period_ + std::exchange(site_.loop_late, Duration{}); left > Duration{}; left -= 1ms) {
     if (site_.each_ms) site_.each_ms();
-    robot_.rink().step(std::min<Duration>(left, 1ms));
+    if (loop_ && !site_.loop_dead) {
+      pass_period(robot_.rink(), *loop_, std::min<Duration>(left, 1ms));
+    } else {
+      robot_.rink().step(std::min<Duration>(left, 1ms));
+    }
   }
   if (site_.loop_dead) return;
   loop_->step(now(), now() - last_step_);
@@ -162,6 +167,10 @@ bool Trial::due() const {
   switch (case_.strike) {
     case Strike::power_on:
       return false;
+    case Strike::rehearsing:
+      return passed(ThrowerState::rehearse, 20ms) && loop_->command().gripper.trial == servo::JawTrial::open;
+    case Strike::set_down:
+      return truth().set_down.has_value();
     case Strike::measuring:
       return passed(ThrowerState::measure, 300ms);
     case Strike::aligning:
@@ -175,7 +184,7 @@ bool Trial::due() const {
     case Strike::too_late:
       return fast && vision::rules::tee_to_hog_m - truth().body.y_m < 0.9;
     case Strike::released:
-      return since(ThrowerState::release).has_value();
+      return since(ThrowerState::release).has_value() && !loop_->release_due();
   }
   return false;
 }
