@@ -274,7 +274,8 @@ CLI::App* add_game(CLI::App& app, hogline::GameOptions& options) {
       ->capture_default_str()
       ->check(hogline::known_strategist);
   game->add_option("--address", options.address, "where Digital Curling clients may connect: an IPv4 address of ours")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
   game->add_option("--thinking", options.thinking_s, "each team's time for the whole game, s")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 86400.0));

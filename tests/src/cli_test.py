@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import re
+import socket
 import subprocess
 import sys
 import tempfile
@@ -335,6 +336,53 @@ class Doctor(unittest.TestCase):
         for device in report["devices"]:
             for remark in device["remarks"]:
                 self.assertTrue(remark["what"] and remark["advice"])
+
+
+class Game(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = os.path.join(self.folder.name, "game")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def game(self, *words):
+        return run("game", "--ends", "1", "--out", self.out, *words)
+
+    def test_an_end_is_played_and_written_down(self):
+        result = self.game("--seed", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        events = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual(events[0]["event"], "begin")
+        self.assertEqual(events[-1]["event"], "over")
+        self.assertGreaterEqual(sum(e["event"] == "throw" for e in events), 16)
+        with open(os.path.join(self.out, "game.jsonl"), encoding="utf-8") as f:
+            self.assertEqual(f.read(), result.stdout)
+        with open(os.path.join(self.out, "game.dcl2"), encoding="utf-8") as f:
+            record = [json.loads(line) for line in f]
+        self.assertEqual([e["log"]["cmd"] for e in record[:9]],
+                         ["dc", "meta", "meta", "dc_ok", "dc_ok", "is_ready", "ready_ok", "ready_ok", "new_game"])
+        self.assertEqual(record[-1]["log"], {"cmd": "game_over"})
+        self.assertEqual(record[-2]["log"]["state"]["game_result"]["reason"], "score")
+        self.assertEqual(self.game("--seed", "3").stdout, result.stdout, "the same seed plays the same game")
+
+    def test_a_client_that_never_comes_stops_the_game(self):
+        result = self.game("--team1", "dc:0", "--connect", "1")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("did not connect within 1 s", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["event"], "stopped")
+
+    def test_wrong_uses(self):
+        for words in (["--team0", "dc:70000"], ["--team0", "somebody"], ["--ends", "0"], ["--thinking", "0"],
+                      ["--team0", "dc:0", "--address", "localhost"]):
+            self.assertEqual(self.game(*words).returncode, 2, words)
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = str(taken.getsockname()[1])
+            result = self.game("--team0", "dc:" + port)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("127.0.0.1:" + port, result.stderr)
 
 
 if __name__ == "__main__":
