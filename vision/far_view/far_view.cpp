@@ -31,7 +31,7 @@ ScreeningOptions careful_screening() {
 
 ScreeningOptions quick_screening() {
   ScreeningOptions options = careful_screening();
-  options.all = {.iterations = 3, .pixels = 160};
+  options.all = {.iterations = 2, .pixels = 130};
   return options;
 }
 
@@ -138,16 +138,16 @@ const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vec
   candidates.clear();
   const StonePicture picture = levels[level].picture(response, setup.shape);
   const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
-  groups.centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
-  groups.centres.setTo(0);
-  bool any = false;
+  centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
+  centres.setTo(0);
+  cv::Rect marked;
   for (const FarPlace& place : places) {
     if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
-    mark_for_votes(scale * place.pixel, scale * place.half_width_px, groups);
-    any = true;
+    marked |= mark_for_votes(scale * place.pixel, scale * place.half_width_px, centres);
   }
-  if (!any) return candidates;
-  candidates = voter.find(picture, groups, {.area = area.whole().wider(look_around_m)});
+  if (marked.empty()) return candidates;
+  const StoneGroups rows{{}, centres.rowRange(marked.y, marked.br().y), 2 * marked.y};
+  candidates = voter.find(picture, rows, {.area = area.whole().wider(look_around_m)});
   for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, picture.camera);
   return candidates;
 }

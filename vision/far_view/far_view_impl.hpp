@@ -59,7 +59,7 @@ struct FarView::Impl {
   FarSheet sheet;
   FarLevels levels;
   FarScan scan;
-  StoneGroups groups;
+  cv::Mat centres;  ///< where handles' centres may be, half a level's size
   StoneVoter voter;
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
