@@ -184,7 +184,7 @@ FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarP
                                    const std::vector<FarExpectation>& expected) {
   FarPercept seen;
   seen.stamp = stamp;
-  seen.reason = unusable(image, view.setup.camera.intrinsics);
+  seen.reason = unusable(image, view.setup.camera.intrinsics, plan);
   if (!seen.reason.empty()) return seen;
 
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, view.response};

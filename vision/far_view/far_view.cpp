@@ -18,8 +18,9 @@ constexpr double drift_px = 2.5;
 constexpr double far_hiding_m =
     3.0;  // a stone hides what stands behind it for so far: 0.2 m of it, seen from 2 m at 30 m
 
-constexpr double grip_top_m = 0.20;  // over the ice
-constexpr int rows_above = 24;       // of the picture, for what is looked at about a stone
+constexpr double least_height_m = 0.5;  // of the camera: a stone must be seen from above
+constexpr double grip_top_m = 0.20;     // over the ice
+constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
 
 }  // namespace
 
@@ -35,12 +36,15 @@ ScreeningOptions quick_screening() {
   return options;
 }
 
-std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics) {
+std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics, const FarPlan& plan) {
   if (image.empty()) return "the picture is empty";
   if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
   if (image.cols != intrinsics.width_px || image.rows != intrinsics.height_px) {
     return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
            std::to_string(intrinsics.width_px) + "x" + std::to_string(intrinsics.height_px);
+  }
+  if (!is_finite(plan.eMc) || !(plan.eMc.translation().z() > least_height_m)) {
+    return "the plan puts the camera nowhere above the ice";
   }
   return {};
 }
@@ -95,7 +99,7 @@ FarView::Impl::Impl(const FarSetup& given, const ScreeningOptions& options)
 FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
   FarPercept seen;
   seen.stamp = stamp;
-  seen.reason = unusable(image, setup.camera.intrinsics);
+  seen.reason = unusable(image, setup.camera.intrinsics, plan);
   if (!seen.reason.empty()) return seen;
 
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, response};
