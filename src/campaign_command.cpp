@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "src/campaign/plots.hpp"
+#include "src/campaign/resting_plot.hpp"
 #include "src/campaign/summary.hpp"
 #include "src/campaign/throwing_crew.hpp"
 #include "src/config/config_error.hpp"
@@ -158,7 +159,9 @@ int run_campaign(const CampaignOptions& options) {
   const Summary summary = summarise(folder.rows(), options.tee_draws);
   write(options.out + "/summary.md", markdown(summary));
   write(options.out + "/summary.json", json(summary));
-  DrawingFolder("--out", options.out).save("distributions", distributions(folder.rows()));
+  DrawingFolder drawings("--out", options.out);
+  drawings.save("distributions", distributions(folder.rows()));
+  if (options.tee_draws) drawings.save("resting-places", resting_places(folder.rows()));
   fmt::print("{}", markdown(summary));
   return summary.ok == summary.throws ? ExitStatus::success : ExitStatus::not_achieved;
 }

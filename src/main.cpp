@@ -188,7 +188,7 @@ CLI::App* add_campaign(CLI::App& app, hogline::CampaignOptions& options) {
       "--tee-draws", options.tee_draws,
       "every shot is solved for the far tee on the scenario's ice; --speed and --heading-deg do not count");
   campaign->add_option("--without", options.without, "leave an ingredient out, to see what it buys")
-      ->check(CLI::IsMember({"refraction", "latency", "visual-alignment"}));
+      ->check(CLI::IsMember({"refraction", "latency", "tracking", "visual-alignment"}));
   campaign->add_option("--faults", options.faults,
                        "instead of plain throws: faults at random moments, all or those with this in their name");
   campaign->add_option("--per-fault", options.per_fault, "throws for each fault")

@@ -108,6 +108,18 @@ void JawsDevice::lose_stone() {
   in_motion_ = true;
 }
 
+// A spindle that no longer locks itself: what was requested stays requested.
+void JawsDevice::give_way() {
+  if (!stone_) return;
+  catches_ = false;
+  from_ = position_;
+  target_ = 0.0;
+  rate_per_s_ = closed_position / scenario_.full_stroke_time_s;
+  motion_start_ = now_;
+  in_motion_ = true;
+  free_at_ = now_ + from_seconds(freeing_travel / rate_per_s_);
+}
+
 void JawsDevice::cut_power() {
   activation_ = Activation::reset;
   go_to_ = false;

@@ -35,6 +35,7 @@ class JawsDevice {
   void jam(bool jammed) { jammed_ = jammed; }  ///< fault injection: orders are answered, the fingers do not move
   void set_fault(std::uint8_t code) { fault_ = code; }  ///< fault injection
   void lose_stone();                                    ///< fault injection: closed jaws slip off the stone
+  void give_way();                                      ///< fault injection: the fingers open, nobody having asked
   void cut_power();                                     ///< fault injection: activation is gone, the jaws stay put
   void place_stone() { stone_ = true; }                 ///< between open jaws
 

@@ -30,8 +30,8 @@ struct Row {
   std::optional<double> yaw_after_alignment_deg;
   std::optional<double> delay_believed_ms;  ///< of the jaws, when the release was timed
   std::optional<double> delay_measured_ms;  ///< ... and as they then reported it
-  std::optional<double> alignment_s;  ///< how long the turn took
-  std::optional<double> rest_x_m;     ///< of the stone, in e
+  std::optional<double> alignment_s;        ///< how long the turn took
+  std::optional<double> rest_x_m;           ///< of the stone, in e
   std::optional<double> rest_y_m;
   double stop_hog_distance_m = 0.0;  ///< where the robot came to rest
   double simulated_s = 0.0;

@@ -1,5 +1,6 @@
 #include "src/throwing/simulated_throw.hpp"
 
+#include "src/throwing/line_seer.hpp"
 #include "src/throwing/throw_recorder.hpp"
 
 namespace hogline {
@@ -61,8 +62,9 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   const Stamp start = robot.rink().now();
   VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera);
   OracleSeer oracle = oracle_of(robot, request.rig);
-  WatchedSeer seer(request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision, robot.rink().history(),
-                   request.watch);
+  LineSeer lines(vision, *request.rig.rig.low_camera);
+  SheetSeer& looking = request.low_by_lines ? static_cast<SheetSeer&>(lines) : vision;
+  WatchedSeer seer(request.eyes == Eyes::oracle ? oracle : looking, robot.rink().history(), request.watch);
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
                    servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
   loop.arm(start);

@@ -25,8 +25,9 @@ struct ThrowRequest {
   servo::ShotOrder order;
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
-  bool follow_stone = true;  ///< go on until the released stone lies still
-  bool settle = false;       ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
+  bool low_by_lines = false;  ///< vision's low view is plain vpMeLine's (LineSeer), to compare with
+  bool follow_stone = true;   ///< go on until the released stone lies still
+  bool settle = false;        ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
   int render_threads = 2;
   LookWatch watch{};  ///< told of every look, beside the truth
 };
