@@ -66,9 +66,16 @@ CLI::App* add_pose(CLI::App& app, hogline::PoseOptions& options) {
 }
 
 CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
-  auto* stones = app.add_subcommand("stones", "the stones on the sheet from pictures of the near camera");
+  auto* stones = app.add_subcommand("stones", "the stones on the sheet from pictures of the near or the far camera");
   stones->add_option("--rig", options.rig, "rig file (YAML): the camera, the sheet and the stones' handles")
       ->required();
+  stones->add_option("--camera", options.camera, "which camera of the rig took the pictures")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"near", "far"}));
+  stones
+      ->add_option("--at", options.at,
+                   "with --camera far: where the body stands, X_M,Y_M,YAW_DEG, as the near view measured it")
+      ->type_name("X_M,Y_M,YAW_DEG");
   stones->add_flag("--sequence", options.sequence,
                    "the pictures are of one robot that stands still: one line with their stones' means");
   stones->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
@@ -81,6 +88,10 @@ CLI::App* add_stones(CLI::App& app, hogline::StonesOptions& options) {
       "Examples:\n"
       "  hogline stones --rig rig.yaml frame.jpg\n"
       "  hogline stones --rig rig.yaml --sequence frame-*.jpg\n"
+      "  hogline stones --rig rig.yaml --camera far --at=-0.15,-3.51,1.1 far.jpg\n"
+      "The far camera's mount in the rig is with the head's pan and tilt of the picture; what the picture shows of "
+      "the\n"
+      "sheet corrects it by up to a degree.\n"
       "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated (of a sequence: none), 2 wrong use or\n"
       "configuration.");

@@ -27,7 +27,6 @@ constexpr double grip_half_m = 0.06;     // across: half a bar
 constexpr double grip_reach_m = 0.16;    // along: a little height is much range
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
-constexpr double most_drift_m = 0.16;
 constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.28 m apart
 constexpr double same_rock = 2.0;          // factor of brightness between two of a club's stones
 
@@ -76,7 +75,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
-  if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
+  if ((fit.place - candidate.place).norm() > candidate.drift_m) return "the fit left the place of the votes";
   return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include "servo/skip_sheet.hpp"
 #include "src/skip/skip_record.hpp"
+#include "src/skip/skip_vision.hpp"
 
 namespace hogline {
 namespace {
@@ -122,7 +123,11 @@ SkipOutcome follow_throw(const SkipRequest& request, const SkipProgress& progres
   SimulatedSkip robot(oracle ? with_small_pictures(request.rig) : request.rig, request.scenario, request.scene,
                       request.released_after, request.render_threads);
   std::unique_ptr<SkipSeer> seer;
-  seer = std::make_unique<SkipOracle>(robot.rink(), robot.scenario(), request.rig, robot.axes(), SkipOracleQuality{});
+  if (oracle) {
+    seer = std::make_unique<SkipOracle>(robot.rink(), robot.scenario(), request.rig, robot.axes(), SkipOracleQuality{});
+  } else {
+    seer = std::make_unique<SkipVision>(request.rig);
+  }
   SkipLoop loop(robot.devices(), *seer,
                 servo::Skip(configured(request), servo::from_other_end(request.ice), robot.rink().now()));
   SkipRecord record(request, robot);

@@ -62,7 +62,7 @@ struct SkipVision::Impl {
   vision::NearView near;
   vision::SheetFit fit;
   vision::StoneFinder finder;
-  vision::FarSequence far;
+  vision::FarView far;
 };
 
 SkipVision::SkipVision(const config::SkipRig& rig) : impl_(std::make_unique<Impl>(rig)) {}
@@ -121,9 +121,7 @@ FarPercept SkipVision::far_view(const hw::Frame& frame, const servo::HeadAngles&
   plan.pan_sigma_rad = std::hypot(impl_->rig.far_mount_sigma_rad, known.body_sigma.yaw_rad);
   plan.tilt_sigma_rad = plan.roll_sigma_rad = impl_->rig.far_mount_sigma_rad;
   plan.sheet_width_m = known.sheet_width_m;
-  std::vector<FarExpectation> expected;
-  for (const StoneSighting& s : known.expected) expected.push_back({s.x_m, s.y_m, s.covariance});
-  return impl_->far.look(frame.bgr, frame.stamp, plan, expected);
+  return impl_->far.look(frame.bgr, frame.stamp, plan);
 }
 
 }  // namespace hogline

@@ -11,6 +11,7 @@
 
 #include "vision/camera_setup.hpp"
 #include "vision/detect/stone_team.hpp"
+#include "vision/far_view/far_plan.hpp"
 #include "vision/geometry/stone_shape.hpp"
 #include "vision/percepts/far_look.hpp"
 
@@ -20,18 +21,6 @@ struct FarSetup {
   CameraSetup camera;  ///< the far camera; its mount is not used: the plan says where it looks
   StoneShape shape;
   TeamHues teams;
-};
-
-/// Where the far camera is thought to be, and how wrong that may be (one standard deviation).
-struct FarPlan {
-  Pose eMc;                             ///< from body, head angles and mount
-  double place_sigma_m = 0.005;         ///< of the camera, along and across the sheet: the near view's
-  double height_sigma_m = 0.003;        ///< as calibrated
-  double pan_sigma_rad = 0.0087;        ///< 0.5 deg: near view's yaw, joint, and head against mount
-  double tilt_sigma_rad = 0.0052;       ///< 0.3 deg
-  double roll_sigma_rad = 0.0035;       ///< 0.2 deg
-  std::optional<double> sheet_width_m;  ///< between the sidelines, where the near view measured it
-  double sheet_width_sigma_m = 0.01;
 };
 
 /// What was seen on the way: for drawings and for people who ask why.

@@ -12,9 +12,9 @@
 
 namespace hogline {
 
-/// How the camera is turned against where the plan (body, head angles, mount) puts it: the plan's pose turned by these
-/// about b's axes. Pan is counter-clockwise positive, positive tilt looks down more, positive roll turns the camera's
-/// right side down.
+/// How the camera is turned against where the plan (body, head angles, mount) puts it: pan about the vertical,
+/// counter-clockwise positive; tilt about the level axis to the left of where it looks, positive looks down more; roll
+/// about the level axis along which it looks, positive turns the camera's right side down.
 struct FarCorrection {
   double pan_rad = 0.0;
   double tilt_rad = 0.0;
@@ -38,12 +38,13 @@ struct FarPercept {
   std::string reason;  ///< why not, when !ok; empty otherwise
   Stamp stamp{};       ///< middle of the exposure
 
-  /// Each stone's covariance is of this look alone: what all stones of the picture share comes on top, and is said by
-  /// `camera` and `correction` (a tilt moves a stone by range^2 / height for each radian, along the ray).
+  /// Each stone's covariance is of this look alone. What all stones of the picture share comes on top: `covariance` of
+  /// the camera, most of it `correction.tilt_sigma_rad` (a tilt moves a stone by range^2 / height for each radian).
   std::vector<StoneSighting> stones;
   FarCorrection correction;                ///< from what the picture shows of the sheet; valid when ok
   std::array<double, 16> eMc{};            ///< the corrected pose of the camera in e, row by row; valid when ok
   std::array<double, 3> camera_sigma_m{};  ///< of its place in e: x, y, z, as after the fit
+  std::array<double, 36> covariance{};     ///< of its place (x, y, z) and its turn about e's axes, row by row
   double residual_px = 0.0;                ///< RMS of the used residuals of painted lines
   int sites_used = 0;                      ///< places on painted lines that the correction rests on
   int sites_tried = 0;
@@ -53,7 +54,28 @@ struct FarPercept {
   int refused = 0;     ///< of those, how many turned out to be something else
 };
 
-/// The covariance of one of its stones with what all stones of the picture share.
-PlaceCovariance whole_covariance(const FarPercept& look, const StoneSighting& stone);
+/// The covariance of one of its stones with what all stones of the picture share: how the camera's place and turn move
+/// the point of the ice that a pixel shows. `handle_height_m` is that of the stones' rims over the ice.
+inline PlaceCovariance whole_covariance(const FarPercept& look, const StoneSighting& stone,
+                                        double handle_height_m = 0.125) {
+  const double dx = stone.x_m - look.eMc[3];
+  const double dy = stone.y_m - look.eMc[7];
+  const double dz = handle_height_m - look.eMc[11];
+  const double a = dx / dz;
+  const double b = dy / dz;
+  // d(x, y) by place and turn: the ray moves, and is followed down to the plane again.
+  const std::array<double, 6> by_x{1.0, 0.0, -a, -a * dy, dz + a * dx, -dy};
+  const std::array<double, 6> by_y{0.0, 1.0, -b, -dz - b * dy, b * dx, dx};
+  PlaceCovariance whole = stone.covariance;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double c = look.covariance[6 * i + j];
+      whole.xx_m2 += by_x[i] * c * by_x[j];
+      whole.xy_m2 += by_x[i] * c * by_y[j];
+      whole.yy_m2 += by_y[i] * c * by_y[j];
+    }
+  }
+  return whole;
+}
 
 }  // namespace hogline

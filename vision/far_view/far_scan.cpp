@@ -1,0 +1,181 @@
+#include "vision/far_view/far_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/detect/granite.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double grip_height_m = 0.07;  // over the handle's rim
+constexpr float least_body = 0.30F;     // share of granite below a handle; nearer stones may hide the rest
+constexpr float least_score = 0.15F;
+constexpr float least_half_width_px = 12.0F;  // smaller stones are not told from specks
+constexpr int white_run = 8;                  // steps that share their white
+
+}  // namespace
+
+FarScan::Row FarScan::plan_row(const StonePicture& picture, const StoneArea& area, int y) const {
+  const SheetCamera& camera = picture.camera;
+  const StoneShape& shape = picture.shape;
+  const double z_m = shape.handle_height_m;
+  const double width = picture.bgr.cols;
+  Row row;
+  const auto left = camera.plane_at({0.0, static_cast<double>(y)}, z_m);
+  const auto right = camera.plane_at({width - 1.0, static_cast<double>(y)}, z_m);
+  if (!left || !right || !(right->x() > left->x())) return row;
+  const Eigen::Vector2d middle = 0.5 * (*left + *right);
+  if (middle.y() > area.max_y_m || middle.y() < area.min_y_m) return row;
+  const Eigen::Vector3d eye = picture.eye();
+  const Bearing bearing = bearing_of(middle, eye);
+  const auto centre = camera.project({middle.x(), middle.y(), z_m});
+  const auto side = camera.project(body_outline_point(middle, shape, eye, 0.0));
+  const auto begin = camera.project(
+      circle_point(middle, bearing, shape.handle_radius_m, z_m - shape.handle_thickness_m, -0.5 * std::numbers::pi));
+  const auto foot = camera.project(body_outline_point(middle, shape, eye, -0.5 * std::numbers::pi));
+  const auto grip = camera.project({middle.x(), middle.y(), z_m + grip_height_m});
+  if (!centre || !side || !begin || !foot || !grip) return row;
+  const auto in_steps = [](double px) { return static_cast<int>(std::lround(px / step_px)); };
+  row.half_width_px = static_cast<float>(std::abs(side->x() - centre->x()));
+  if (row.half_width_px < least_half_width_px) return row;
+  row.half_width = in_steps(double{row.half_width_px});
+  row.granite_top = in_steps(begin->y() - centre->y());
+  row.foot = std::max(row.granite_top + 1, in_steps(foot->y() - centre->y()));
+  row.above = std::min(-1, in_steps(grip->y() - centre->y()));
+  if (2 * row.half_width >= margin || 2 * row.foot >= margin) return row;
+  const double per_step = step_px * (right->x() - left->x()) / (width - 1.0);
+  const int columns = picture.bgr.cols / step_px;
+  row.first = std::clamp(static_cast<int>(std::ceil((-area.half_width_m - left->x()) / per_step)), 0, columns);
+  row.last = std::clamp(static_cast<int>(std::floor((area.half_width_m - left->x()) / per_step)) + 1, 0, columns);
+  row.seen = row.first < row.last;
+  return row;
+}
+
+void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area) {
+  rows_.clear();
+  first_row_ = picture.bgr.rows / step_px;
+  for (int r = 0; r < picture.bgr.rows / step_px; ++r) {
+    rows_.push_back(plan_row(picture, area, r * step_px));
+    if (rows_.back().seen) first_row_ = std::min(first_row_, r);
+  }
+}
+
+// In steps, 1 where the mean of four pixels may be granite, below the first row that is looked at.
+void FarScan::find_granite(const StonePicture& picture) {
+  const int rows = picture.bgr.rows / step_px;
+  const int columns = picture.bgr.cols / step_px;
+  granite_.create(rows + 2 * margin, columns + 2 * margin, CV_8UC1);
+  granite_.setTo(0);
+  const int first = std::max(0, first_row_ + (rows_[static_cast<std::size_t>(first_row_)].above - 1));
+  for (int r = first; r < rows; ++r) {
+    const int y = step_px * r;
+    std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
+    const std::uint8_t* upper = picture.bgr.ptr<std::uint8_t>(y);
+    const std::uint8_t* lower = picture.bgr.ptr<std::uint8_t>(y + 1);
+    for (int begin = 0; begin < columns; begin += white_run) {
+      const int end = std::min(begin + white_run, columns);
+      const auto white = picture.ice.at(step_px * (begin + end) / 2, y);
+      const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
+      for (int c = begin; c < end; ++c) {
+        const int at = 3 * step_px * c;
+        const auto light = [&](int k) {
+          const int sum = upper[at + k] + upper[at + k + 3] + lower[at + k] + lower[at + k + 3] + 2;
+          return picture.response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
+        };
+        out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
+      }
+    }
+  }
+  cv::integral(granite_, sums_, CV_32S);
+}
+
+// Of granite, in steps of the picture; ends are exclusive.
+float FarScan::share(int left, int top, int right, int bottom) const {
+  const int area = std::max(1, (right - left) * (bottom - top));
+  const int* upper = sums_.ptr<int>(top + margin);
+  const int* lower = sums_.ptr<int>(bottom + margin);
+  const int count = lower[right + margin] - lower[left + margin] - upper[right + margin] + upper[left + margin];
+  return static_cast<float>(count) / static_cast<float>(area);
+}
+
+// Granite where the body is, none beside it, below it and where handle and grip are.
+float FarScan::score(const Row& row, int c, int r) const {
+  const int side = std::max(1, static_cast<int>(0.75F * static_cast<float>(row.half_width)));
+  const int top = r + row.granite_top;
+  const int bottom = r + std::max(row.granite_top + 1, static_cast<int>(0.9F * static_cast<float>(row.foot)));
+  const float body = share(c - side, top, c + side + 1, bottom);
+  if (body < least_body) return -1.0F;
+  const int beside = row.half_width + 1;
+  const int reach = beside + std::max(1, row.half_width / 2);
+  const float left = share(c - reach, top, c - beside, bottom);
+  const float right = share(c + beside + 1, top, c + reach + 1, bottom);
+  const int below = r + row.foot + 1;
+  const float under = share(c - side, below, c + side + 1, below + std::max(1, (row.foot - row.granite_top) / 2));
+  const int half_handle = std::max(1, row.half_width / 3);
+  const float handle = share(c - half_handle, r + row.above, c + half_handle + 1, r + 1);
+  // Beside and over it other stones may stand.
+  return body - 0.5F * std::min(left, right) - 0.2F * std::max(left, right) - 0.3F * under - 0.5F * handle;
+}
+
+const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const StoneArea& area) {
+  places_.clear();
+  plan_rows(picture, area);
+  if (first_row_ >= static_cast<int>(rows_.size())) return places_;
+  find_granite(picture);
+
+  const int columns = picture.bgr.cols / step_px;
+  const int rows = static_cast<int>(rows_.size());
+  scores_.create(rows, columns, CV_32FC1);
+  scores_.setTo(-1.0F);
+  for (int r = first_row_; r < rows; ++r) {
+    const Row& row = rows_[static_cast<std::size_t>(r)];
+    if (!row.seen) continue;
+    for (int c = row.first; c < row.last; ++c) scores_.at<float>(r, c) = score(row, c, r);
+  }
+
+  // The best of each neighbourhood of a third of a stone.
+  for (int r = first_row_; r < rows; ++r) {
+    const Row& row = rows_[static_cast<std::size_t>(r)];
+    const int reach_x = std::max(1, row.half_width / 3);
+    const int reach_y = std::max(1, (row.foot - row.granite_top) / 3);
+    for (int c = row.first; row.seen && c < row.last; ++c) {
+      const float here = scores_.at<float>(r, c);
+      if (here < least_score) continue;
+      bool best = true;
+      for (int y = std::max(0, r - reach_y); best && y <= std::min(rows - 1, r + reach_y); ++y) {
+        const float* line = scores_.ptr<float>(y);
+        for (int x = std::max(0, c - reach_x); best && x <= std::min(columns - 1, c + reach_x); ++x) {
+          const bool before = y < r || (y == r && x < c);
+          best = before ? line[x] < here : line[x] <= here;
+        }
+      }
+      if (best) places_.push_back({{step_px * c, step_px * r}, row.half_width_px, here});
+    }
+  }
+  std::sort(places_.begin(), places_.end(), [](const FarPlace& a, const FarPlace& b) {
+    return a.score != b.score       ? a.score > b.score
+           : a.pixel.y != b.pixel.y ? a.pixel.y < b.pixel.y
+                                    : a.pixel.x < b.pixel.x;
+  });
+  if (places_.size() > most_places) places_.resize(most_places);
+  return places_;
+}
+
+StoneGroups voting_places(const std::vector<FarPlace>& places, cv::Size picture) {
+  StoneGroups groups;
+  groups.centres.create(picture.height / 2, picture.width / 2, CV_8UC1);
+  groups.centres.setTo(0);
+  const cv::Rect whole({0, 0}, groups.centres.size());
+  for (const FarPlace& place : places) {
+    const int reach_x = 2 + static_cast<int>(place.half_width_px) / 12;
+    const int reach_y = 2 + static_cast<int>(place.half_width_px) / 20;
+    const cv::Rect box(place.pixel.x / 2 - reach_x, place.pixel.y / 2 - reach_y, 2 * reach_x + 1, 2 * reach_y + 1);
+    groups.centres(box & whole).setTo(255);
+  }
+  return groups;
+}
+
+}  // namespace hogline::vision

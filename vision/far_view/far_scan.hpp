@@ -1,0 +1,61 @@
+// Where in the far picture stones may be: places with as much granite as a stone's body shows, ice beside and below it,
+// and no granite where the handle is. The size to expect follows from the picture's row.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "vision/detect/stone_groups.hpp"
+#include "vision/detect/stone_outline.hpp"
+#include "vision/detect/stone_picture.hpp"
+
+namespace hogline::vision {
+
+/// A place where a handle's centre may be.
+struct FarPlace {
+  cv::Point pixel;
+  float half_width_px = 0.0F;  ///< of the stone's body there
+  float score = 0.0F;          ///< at most 1
+};
+
+/// Keeps its memory from picture to picture.
+class FarScan {
+ public:
+  /// By falling score, at most `most_places`. They stay until the next call.
+  const std::vector<FarPlace>& find(const StonePicture& picture, const StoneArea& area);
+
+  static constexpr std::size_t most_places = 40;
+
+ private:
+  static constexpr int step_px = 4;
+  static constexpr int margin = 64;  ///< steps about the picture, without granite
+
+  /// A stone whose handle's centre is in a row, relative to it, in steps.
+  struct Row {
+    bool seen = false;
+    float half_width_px = 0.0F;
+    int half_width = 0;
+    int granite_top = 0;  ///< below the handle
+    int foot = 0;
+    int above = 0;  ///< the grip's top, negative
+    int first = 0;  ///< columns that are of this sheet
+    int last = 0;
+  };
+  void plan_rows(const StonePicture& picture, const StoneArea& area);
+  Row plan_row(const StonePicture& picture, const StoneArea& area, int y) const;
+  void find_granite(const StonePicture& picture);
+  float score(const Row& row, int c, int r) const;
+  float share(int left, int top, int right, int bottom) const;
+
+  std::vector<Row> rows_;
+  int first_row_ = 0;  ///< of those that are looked at
+  cv::Mat granite_;
+  cv::Mat sums_;
+  cv::Mat scores_;
+  std::vector<FarPlace> places_;
+};
+
+/// For the votes: the pixels about the places in which the handles' centres are looked for.
+StoneGroups voting_places(const std::vector<FarPlace>& places, cv::Size picture);
+
+}  // namespace hogline::vision

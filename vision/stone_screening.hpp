@@ -1,0 +1,46 @@
+// From places with votes to stones: each by itself, then what nearer stones may hide, then all together. Near and far
+// view share it.
+#pragma once
+
+#include <vector>
+
+#include "vision/detect/stone_picture.hpp"
+#include "vision/detect/stone_team.hpp"
+#include "vision/fit/stone_fit.hpp"
+#include "vision/stone_verdict.hpp"
+
+namespace hogline::vision {
+
+struct ScreeningOptions {
+  StoneFitOptions first{.iterations = 2, .fit_shape = false, .pixels = 120};   ///< of each by itself
+  StoneFitOptions hidden{.iterations = 3, .fit_shape = false, .pixels = 200};  ///< of what may be hidden
+  StoneFitOptions all{};                                                       ///< of all together
+  double hiding_m = 1.2;  ///< a stone farther behind another is seen over it
+};
+
+/// Keeps its memory from picture to picture.
+class StoneScreening {
+ public:
+  explicit StoneScreening(const ScreeningOptions& options = {}) : options_(options) {}
+
+  /// Stones of the candidates, in the candidates' order; what is none keeps its doubt.
+  std::vector<JudgedStone> judge(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+
+  /// The fit of all that are without doubt together, with the shape they share; some are doubted after it.
+  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
+
+ private:
+  std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+  std::vector<NearerStone> look_behind(const StonePicture& picture, const std::vector<NearerStone>& known,
+                                       const std::vector<NearerStone>& newest, std::vector<JudgedStone>& stones);
+  bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others,
+                     const Eigen::Vector2d& eye) const;
+
+  ScreeningOptions options_;
+  StoneFitter fitter_;
+};
+
+/// What the verdict leaves of a stone, as the percept says it.
+StoneSighting sighting_of(const JudgedStone& stone, const TeamHues& teams);
+
+}  // namespace hogline::vision
