@@ -10,7 +10,8 @@
 namespace hogline::servo {
 namespace {
 
-constexpr double same_stone_m = 0.6;  // a far look this near to the estimate may steer the head
+constexpr double steering_gate_m = 0.15;  // a far look this near to the estimate may steer the head, and
+constexpr double steering_sigmas = 3.0;   // within these
 constexpr double turning_radps = 0.02;
 constexpr Duration pose_refresh = std::chrono::milliseconds(500);
 constexpr Duration quiet_after = std::chrono::milliseconds(500);  // after the last stone came to rest
@@ -42,6 +43,11 @@ PlaceCovariance with_the_camera(const FarPercept& far, const StoneSighting& ston
   all(1, 1) += far.camera_sigma_m[1] * far.camera_sigma_m[1];
   const PlaceCovariance& own = stone.covariance;
   return {own.xx_m2 + all(0, 0), own.xy_m2 + all(0, 1), own.yy_m2 + all(1, 1)};
+}
+
+double gate_of(const WorldStone& stone) {
+  const MotionCovariance& c = stone.motion.covariance;
+  return steering_gate_m + steering_sigmas * std::sqrt(c(0, 0) + c(1, 1));
 }
 
 StoneSighting expectation(const WorldStone& stone) {
@@ -356,10 +362,14 @@ void Skip::Impl::steer(const FarPercept& far) {
   if (!thrown || thrown->phase == StonePhase::gone) return;
   const SlidingStone& at = thrown->motion.stone;
   const StoneSighting* nearest = nullptr;
-  double least = same_stone_m;
+  double least = gate_of(*thrown);
   for (const StoneSighting& s : far.stones) {
     const double gap = std::hypot(s.x_m - at.x_m, s.y_m - at.y_m);
-    if (gap < least) least = gap, nearest = &s;
+    const bool anothers = std::any_of(world.stones.begin(), world.stones.end(), [&](const WorldStone& other) {
+      const SlidingStone& o = other.motion.stone;
+      return !other.thrown && std::hypot(s.x_m - o.x_m, s.y_m - o.y_m) < gap;
+    });
+    if (!anothers && gap < least) least = gap, nearest = &s;
   }
   if (!nearest) return;
   const Eigen::Vector3d cP = in_camera(far.eMc, {nearest->x_m, nearest->y_m, config.aiming.aim_height_m});

@@ -65,7 +65,8 @@ struct SkipSample {
   double t_s = 0.0;  ///< after the release
   servo::SkipState state = servo::SkipState::boot;
   hw::sim::StoneTruth truth;  ///< of the thrown stone
-  bool on_ice = false;        ///< it was thrown, and is not out
+  bool on_ice = false;        ///< nobody has caught it
+  bool out = false;           ///< by the rules
   double off_axis_rad = 0.0;  ///< of it from the far camera's axis, in truth
   double pan_rad = 0.0;       ///< in truth
   double tilt_rad = 0.0;

@@ -20,9 +20,12 @@ constexpr double another_m = 0.15;
 
 using Pair = std::pair<int, int>;
 
+/// On the sheet, for the rules: a stone that is out is nobody's target.
+bool in_play(const SkipSample& s) { return s.on_ice && !s.out && s.state == servo::SkipState::follow; }
+
 void judge_aiming(const SkipOutcome& outcome, SkipFigures& figures) {
   for (const SkipSample& s : outcome.samples) {
-    if (!s.on_ice || s.truth.y_m > servo::far_hog_line_m || s.state != servo::SkipState::follow) continue;
+    if (!in_play(s) || s.truth.y_m > servo::far_hog_line_m) continue;
     figures.aim_deg.add(s.off_axis_rad * deg);
     figures.worst_aim_deg = std::max(figures.worst_aim_deg, s.off_axis_rad * deg);
   }
@@ -31,7 +34,7 @@ void judge_aiming(const SkipOutcome& outcome, SkipFigures& figures) {
     const double end_s = passer.from_s + passer.for_s;
     double settled_s = 0.0;
     for (const SkipSample& s : outcome.samples) {
-      if (s.t_s < end_s || s.t_s > end_s + 3.0 || !s.on_ice || s.state != servo::SkipState::follow) continue;
+      if (s.t_s < end_s || s.t_s > end_s + 3.0 || !in_play(s)) continue;
       if (s.off_axis_rad * deg > aimed_deg) settled_s = s.t_s - end_s;
     }
     figures.settle_s.push_back(settled_s);
@@ -53,7 +56,7 @@ std::optional<hw::sim::StoneTruth> truth_at(const SkipOutcome& outcome, double t
 
 void judge_tracking(const SkipOutcome& outcome, SkipFigures& figures) {
   for (const SkipSample& s : outcome.samples) {
-    if (!s.on_ice || !s.known || s.state != servo::SkipState::follow) continue;
+    if (!in_play(s) || !s.known) continue;
     figures.live.add(s.truth.x_m, s.truth.y_m, std::hypot(s.known->x_m - s.truth.x_m, s.known->y_m - s.truth.y_m));
   }
   for (const servo::TrajectoryPoint& p : outcome.report.result.trajectory) {
@@ -87,10 +90,10 @@ void judge_ends(const SkipOutcome& outcome, const std::map<int, int>& true_of, S
     }
     const TrueStone& truth = outcome.stones[static_cast<std::size_t>(i)];
     if (stone.fate != truth.fate && truth.margin_m > called_m) ++figures.wrong_fates;
-    const auto in_play = [](servo::StoneFate f) {
+    const auto lies = [](servo::StoneFate f) {
       return f == servo::StoneFate::at_rest || f == servo::StoneFate::hogged;
     };
-    if (!in_play(stone.fate) || !in_play(truth.fate)) continue;
+    if (!lies(stone.fate) || !lies(truth.fate)) continue;
     const auto miss_m = [&](const TrueStone& t) { return std::hypot(stone.x_m - t.end.x_m, stone.y_m - t.end.y_m); };
     if (stone.moved) figures.rest_errors_m.push_back(miss_m(truth));
     const bool others = std::any_of(outcome.stones.begin(), outcome.stones.end(), [&](const TrueStone& t) {

@@ -45,6 +45,7 @@ void SkipRecord::note(const SkipLoop& loop, Stamp now) {
                       .state = loop.skip().state(),
                       .truth = thrown.motion,
                       .on_ice = !thrown.taken_off,
+                      .out = margins_[*rink.thrown()].back_m < 0.0 || margins_[*rink.thrown()].side_m < 0.0,
                       .off_axis_rad = off_axis(eMc, thrown.motion, request_.rig.skip.aiming.aim_height_m),
                       .pan_rad = moment.head.pan_rad,
                       .tilt_rad = moment.head.tilt_rad,

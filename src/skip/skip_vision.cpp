@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "src/stones_setup.hpp"
 #include "vision/far_view/far_view.hpp"
@@ -17,6 +18,7 @@ constexpr double search_px = 12.0;        // joint zeros and the near mount's pi
 constexpr double most_residual_px = 0.5;  // as the near view asks of its acquisitions
 constexpr double most_turn_rad = 0.012;   // of the fitted camera against body and joints
 constexpr double most_shift_m = 0.06;
+constexpr double tilt_step_rad = 0.026;  // 1.5 deg
 
 vision::Pose pose_of(const servo::HeadGeometry& head, const servo::HeadAngles& q, const PlanarPose& body) {
   const servo::HeadPose at = servo::camera_pose(head, q);
@@ -50,18 +52,15 @@ vision::FarSetup far_setup(const config::SkipRig& rig) {
 
 struct SkipVision::Impl {
   explicit Impl(const config::SkipRig& skip_rig)
-      : rig(skip_rig),
-        near(rig.rig.camera("near")),
-        fit(rig.rig.camera("near")),
-        finder(stones_setup(rig.rig)),
-        far(far_setup(rig)) {}
+      : rig(skip_rig), near(rig.rig.camera("near")), fit(rig.rig.camera("near")), far(far_setup(rig)) {}
 
   SheetPosePercept fitted(const hw::Frame& frame, const servo::HeadAngles& q, const servo::SkipDiagnosis& known);
+  vision::StoneFinder& finder_at(double tilt_rad);
 
   config::SkipRig rig;
   vision::NearView near;
   vision::SheetFit fit;
-  vision::StoneFinder finder;
+  std::map<int, vision::StoneFinder> finders;  ///< by the head's tilt, in steps
   vision::FarView far;
 };
 
@@ -93,6 +92,17 @@ SheetPosePercept SkipVision::Impl::fitted(const hw::Frame& frame, const servo::H
   return percept;
 }
 
+// Where in the picture how large a stone may be is worked out once for each mount: one for every step of tilt. Pan does
+// not change it.
+vision::StoneFinder& SkipVision::Impl::finder_at(double tilt_rad) {
+  const int step = static_cast<int>(std::lround(tilt_rad / tilt_step_rad));
+  const auto known = finders.find(step);
+  if (known != finders.end()) return known->second;
+  vision::StonesSetup setup = stones_setup(rig.rig);
+  setup.camera.mount = mount_of(rig.skip.near_head, {.pan_rad = 0.0, .tilt_rad = step * tilt_step_rad});
+  return finders.emplace(step, setup).first->second;
+}
+
 servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::HeadAngles& q,
                                        const servo::SkipDiagnosis& known) {
   servo::NearSight sight;
@@ -105,7 +115,8 @@ servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::Head
   const auto width = sight.sheet.sheet_width_m ? sight.sheet.sheet_width_m : known.sheet_width_m;
   // A stone that runs out is followed until it is out: the finder leaves out what lies beyond the sidelines.
   const auto wide = width ? std::optional(*width + 0.6) : std::nullopt;
-  sight.stones = impl_->finder.find(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide);
+  sight.stones =
+      impl_->finder_at(q.tilt_rad).find(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide);
   return sight;
 }
 
