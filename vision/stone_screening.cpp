@@ -31,8 +31,9 @@ bool StoneScreening::may_be_hidden(const Eigen::Vector2d& place, const std::vect
 }
 
 std::vector<JudgedStone> StoneScreening::judge(const StonePicture& picture,
-                                               const std::vector<StoneCandidate>& candidates) {
-  std::vector<JudgedStone> stones = screen(picture, candidates);
+                                               const std::vector<StoneCandidate>& candidates,
+                                               const std::vector<NearerStone>& nearer) {
+  std::vector<JudgedStone> stones = screen(picture, candidates, nearer);
   compare_granite(stones);
   part_overlapping(stones);
   doubt_grips(stones, picture.eye(), picture.shape);
@@ -42,7 +43,8 @@ std::vector<JudgedStone> StoneScreening::judge(const StonePicture& picture,
 // Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:
 // with the stones that are known by now left out of the picture.
 std::vector<JudgedStone> StoneScreening::screen(const StonePicture& picture,
-                                                const std::vector<StoneCandidate>& candidates) {
+                                                const std::vector<StoneCandidate>& candidates,
+                                                const std::vector<NearerStone>& nearer) {
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
     if (is_taken(c.place, stones)) continue;
@@ -60,7 +62,7 @@ std::vector<JudgedStone> StoneScreening::screen(const StonePicture& picture,
     const FittedStone& fit = fitter_.run().stones[0];
     stones.push_back({c, fit, doubt_of(c, fit, false)});
   }
-  std::vector<NearerStone> known;
+  std::vector<NearerStone> known = nearer;
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
   }
@@ -92,15 +94,18 @@ std::vector<NearerStone> StoneScreening::look_behind(const StonePicture& picture
 }
 
 // All together: stones that hide each other, and the shape they share.
-void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone>& stones,
+                            const std::vector<NearerStone>& nearer) {
   std::vector<Eigen::Vector2d> starts;
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) starts.push_back(s.fit.place);
   }
-  fitter_.begin(picture, starts, options_.all);
+  StoneFitOptions options = options_.all;
+  options.nearer = nearer;
+  fitter_.begin(picture, starts, options);
   const StoneFitResult& result = fitter_.run();
   std::size_t next = 0;
-  std::vector<NearerStone> others;
+  std::vector<NearerStone> others = nearer;
   for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;

@@ -23,14 +23,18 @@ class StoneScreening {
  public:
   explicit StoneScreening(const ScreeningOptions& options = {}) : options_(options) {}
 
-  /// Stones of the candidates, in the candidates' order; what is none keeps its doubt.
-  std::vector<JudgedStone> judge(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+  /// Stones of the candidates, in the candidates' order; what is none keeps its doubt. `nearer` are known already, and
+  /// may hide these.
+  std::vector<JudgedStone> judge(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                                 const std::vector<NearerStone>& nearer = {});
 
   /// The fit of all that are without doubt together, with the shape they share; some are doubted after it.
-  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
+  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones,
+              const std::vector<NearerStone>& nearer = {});
 
  private:
-  std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+  std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                                  const std::vector<NearerStone>& nearer);
   std::vector<NearerStone> look_behind(const StonePicture& picture, const std::vector<NearerStone>& known,
                                        const std::vector<NearerStone>& newest, std::vector<JudgedStone>& stones);
   bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others,

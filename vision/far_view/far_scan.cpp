@@ -13,8 +13,8 @@ namespace {
 constexpr double grip_height_m = 0.07;  // over the handle's rim
 constexpr float least_body = 0.30F;     // share of granite below a handle; nearer stones may hide the rest
 constexpr float least_score = 0.15F;
-constexpr float least_half_width_px = 12.0F;  // smaller stones are not told from specks
-constexpr int white_run = 8;                  // steps that share their white
+constexpr double least_half_width_px = 6.0;  // smaller stones are not told from specks
+constexpr int white_run = 8;                 // steps that share their white
 
 }  // namespace
 
@@ -39,9 +39,10 @@ FarScan::Row FarScan::plan_row(const StonePicture& picture, const StoneArea& are
   const auto grip = camera.project({middle.x(), middle.y(), z_m + grip_height_m});
   if (!centre || !side || !begin || !foot || !grip) return row;
   const auto in_steps = [](double px) { return static_cast<int>(std::lround(px / step_px)); };
-  row.half_width_px = static_cast<float>(std::abs(side->x() - centre->x()));
+  row.half_width_px = std::abs(side->x() - centre->x());
+  row.range_m = bearing.range_m;
   if (row.half_width_px < least_half_width_px) return row;
-  row.half_width = in_steps(double{row.half_width_px});
+  row.half_width = in_steps(row.half_width_px);
   row.granite_top = in_steps(begin->y() - centre->y());
   row.foot = std::max(row.granite_top + 1, in_steps(foot->y() - centre->y()));
   row.above = std::min(-1, in_steps(grip->y() - centre->y()));
@@ -63,7 +64,7 @@ void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area) {
   }
 }
 
-// In steps, 1 where the mean of four pixels may be granite, below the first row that is looked at.
+// In steps, 1 where the picture may show granite, below the first row that is looked at.
 void FarScan::find_granite(const StonePicture& picture) {
   const int rows = picture.bgr.rows / step_px;
   const int columns = picture.bgr.cols / step_px;
@@ -73,18 +74,14 @@ void FarScan::find_granite(const StonePicture& picture) {
   for (int r = first; r < rows; ++r) {
     const int y = step_px * r;
     std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
-    const std::uint8_t* upper = picture.bgr.ptr<std::uint8_t>(y);
-    const std::uint8_t* lower = picture.bgr.ptr<std::uint8_t>(y + 1);
+    const std::uint8_t* in = picture.bgr.ptr<std::uint8_t>(y);
     for (int begin = 0; begin < columns; begin += white_run) {
       const int end = std::min(begin + white_run, columns);
       const auto white = picture.ice.at(step_px * (begin + end) / 2, y);
       const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
       for (int c = begin; c < end; ++c) {
-        const int at = 3 * step_px * c;
-        const auto light = [&](int k) {
-          const int sum = upper[at + k] + upper[at + k + 3] + lower[at + k] + lower[at + k + 3] + 2;
-          return picture.response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
-        };
+        const std::uint8_t* pixel = in + 3 * step_px * c;
+        const auto light = [&](std::size_t k) { return picture.response.linear(pixel[k]) * scale[k]; };
         out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
       }
     }
@@ -152,7 +149,7 @@ const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const St
           best = before ? line[x] < here : line[x] <= here;
         }
       }
-      if (best) places_.push_back({{step_px * c, step_px * r}, row.half_width_px, here});
+      if (best) places_.push_back({cv::Point2d(step_px * c, step_px * r), row.half_width_px, row.range_m, here});
     }
   }
   std::sort(places_.begin(), places_.end(), [](const FarPlace& a, const FarPlace& b) {
@@ -164,18 +161,13 @@ const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const St
   return places_;
 }
 
-StoneGroups voting_places(const std::vector<FarPlace>& places, cv::Size picture) {
-  StoneGroups groups;
-  groups.centres.create(picture.height / 2, picture.width / 2, CV_8UC1);
-  groups.centres.setTo(0);
-  const cv::Rect whole({0, 0}, groups.centres.size());
-  for (const FarPlace& place : places) {
-    const int reach_x = 2 + static_cast<int>(place.half_width_px) / 12;
-    const int reach_y = 2 + static_cast<int>(place.half_width_px) / 20;
-    const cv::Rect box(place.pixel.x / 2 - reach_x, place.pixel.y / 2 - reach_y, 2 * reach_x + 1, 2 * reach_y + 1);
-    groups.centres(box & whole).setTo(255);
-  }
-  return groups;
+void mark_for_votes(cv::Point2d centre, double half_width_px, StoneGroups& groups) {
+  const int reach_x = 1 + static_cast<int>(half_width_px / 10.0);
+  const int reach_y = 1 + static_cast<int>(half_width_px / 14.0);
+  const int x = static_cast<int>(centre.x / 2.0);
+  const int y = static_cast<int>(centre.y / 2.0);
+  const cv::Rect box(x - reach_x, y - reach_y, 2 * reach_x + 1, 2 * reach_y + 1);
+  groups.centres(box & cv::Rect({0, 0}, groups.centres.size())).setTo(255);
 }
 
 }  // namespace hogline::vision

@@ -1,5 +1,5 @@
-// Where in the far picture stones may be: places with as much granite as a stone's body shows, ice beside and below it,
-// and no granite where the handle is. The size to expect follows from the picture's row.
+// Where in the far picture, at half its size, stones may be: places with as much granite as a stone's body shows, ice
+// beside and below it, and no granite where the handle is. The size to expect follows from the picture's row.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -13,8 +13,9 @@ namespace hogline::vision {
 
 /// A place where a handle's centre may be.
 struct FarPlace {
-  cv::Point pixel;
-  float half_width_px = 0.0F;  ///< of the stone's body there
+  cv::Point2d pixel;           ///< of the picture that was scanned
+  double half_width_px = 0.0;  ///< of the stone's body there
+  double range_m = 0.0;        ///< from the camera
   float score = 0.0F;          ///< at most 1
 };
 
@@ -27,13 +28,14 @@ class FarScan {
   static constexpr std::size_t most_places = 40;
 
  private:
-  static constexpr int step_px = 4;
+  static constexpr int step_px = 2;
   static constexpr int margin = 64;  ///< steps about the picture, without granite
 
   /// A stone whose handle's centre is in a row, relative to it, in steps.
   struct Row {
     bool seen = false;
-    float half_width_px = 0.0F;
+    double half_width_px = 0.0;
+    double range_m = 0.0;
     int half_width = 0;
     int granite_top = 0;  ///< below the handle
     int foot = 0;
@@ -55,7 +57,8 @@ class FarScan {
   std::vector<FarPlace> places_;
 };
 
-/// For the votes: the pixels about the places in which the handles' centres are looked for.
-StoneGroups voting_places(const std::vector<FarPlace>& places, cv::Size picture);
+/// For the votes: the pixels about a place in which the handle's centre is looked for; `centre` and `half_width_px` in
+/// the pixels of the picture voted on.
+void mark_for_votes(cv::Point2d centre, double half_width_px, StoneGroups& groups);
 
 }  // namespace hogline::vision

@@ -141,7 +141,8 @@ bool FarSheet::settle(const PictureLight& light, const Round& round) {
   const SheetCamera camera(lens_, state_.eMc, Ice{state_.paint_depth_m, setup_.ice.refractive_index});
   plan_sites(camera, state_, {.spacing_px = round.spacing_px, .half_width_m = across_half_width_m}, sites_);
   found_.clear();
-  for (const PlannedSite& site : sites_) {
+  for (PlannedSite& site : sites_) {
+    site.floor_px = std::max(site.floor_px, round.floor_px);
     found_.push_back(look_closely(light, site, round.search_px, round.half_breadth, profile_));
   }
   step_closely(sites_, found_, prior(), step_, scratch_);
@@ -156,11 +157,11 @@ const FarAim& FarSheet::find(const PictureLight& light, const FarPlan& plan) {
   begin(plan);
   if (!vote(light)) return refuse("none of the sheet's lines is seen near where the plan puts it");
 
-  for (const Round& round : {Round{48.0, 6.0, 2}, Round{40.0, 3.0, 2}}) {
+  for (const Round& round : {Round{48.0, 6.0, 2, 1.5}, Round{40.0, 3.0, 2, 0.5}}) {
     if (!settle(light, round)) return refuse("the fit ran away");
   }
   find_sidelines(light);
-  for (const Round& round : {Round{40.0, 2.5, 2}, Round{24.0, 1.5, 2}}) {
+  for (const Round& round : {Round{40.0, 2.5, 2, 0.3}, Round{24.0, 1.5, 2, 0.0}}) {
     if (!settle(light, round)) return refuse("the fit ran away");
   }
   return judge();
@@ -170,7 +171,7 @@ const FarAim& FarSheet::follow(const PictureLight& light, const FarPlan& plan) {
   const FitState before = state_;
   begin(plan);
   state_.sidelines = before.sidelines;
-  for (const Round& round : {Round{40.0, 4.0, 2}, Round{24.0, 1.5, 2}}) {
+  for (const Round& round : {Round{48.0, 4.0, 2, 0.8}, Round{40.0, 1.5, 2, 0.0}}) {
     if (!settle(light, round)) return refuse("the fit ran away");
   }
   return judge();

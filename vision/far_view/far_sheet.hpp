@@ -45,10 +45,13 @@ class FarSheet {
   const FarAim& aim() const { return aim_; }
 
  private:
+  /// A look and a step. `floor_px` is the error that each place may still have: with too little, the lines that are off
+  /// most would be taken for somebody else's.
   struct Round {
     double spacing_px;
     double search_px;
     int half_breadth;
+    double floor_px;
   };
   void begin(const FarPlan& plan);
   bool vote(const PictureLight& light);

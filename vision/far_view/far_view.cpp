@@ -72,9 +72,9 @@ void report_aim(const FarAim& aim, FarPercept& seen) {
 
 FarView::Impl::Impl(const FarSetup& given)
     : setup(given),
-      lens(given.camera.intrinsics),
       response(given.camera.gamma),
       sheet(given.camera),
+      levels(given.camera.intrinsics),
       screening(far_screening()) {}
 
 FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
@@ -90,30 +90,59 @@ FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan&
     return seen;
   }
   report_aim(aim, seen);
-  const SheetCamera camera(lens, aim.eMc, setup.camera.ice);
+
+  levels.begin(image, response);
+  levels.look_from(aim.eMc, setup.camera.ice);
   const FarArea area(aim, plan.sheet_width_m, setup.camera.sheet.width_m);
+  const auto& places = scan.find(levels.middle().picture(response, setup.shape), area.whole().wider(look_around_m));
 
-  const WhiteLight ice(image, response, 0);
-  const StonePicture picture{image, response, ice, camera, setup.shape};
-  const StoneGroups groups = voting_places(scan.find(picture, area.whole().wider(look_around_m)), image.size());
-  candidates = voter.find(picture, groups, {.area = area.whole().wider(look_around_m)});
-  for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, camera);
-
-  std::vector<JudgedStone> stones = screening.judge(picture, candidates);
-  screening.refine(picture, stones);
-
-  for (JudgedStone& s : stones) {
-    if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
-    if (sketch != nullptr) {
-      const Eigen::Vector2d& p = s.fit.place;
-      sketch->candidates.push_back({{s.candidate.pixel.x(), s.candidate.pixel.y()}, p.x(), p.y(), s.doubt});
-    }
-  }
+  find_stones(places, area, seen, sketch);
   seen.ok = true;
-  seen.candidates = static_cast<int>(stones.size());
-  seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
   return seen;
+}
+
+// Candidates of the places that are to be looked at on this level.
+const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vector<FarPlace>& places,
+                                                       const StoneArea& area) {
+  candidates.clear();
+  const StonePicture picture = levels[level].picture(response, setup.shape);
+  groups.centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
+  groups.centres.setTo(0);
+  const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
+  bool any = false;
+  for (const FarPlace& place : places) {
+    if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
+    mark_for_votes(scale * place.pixel, scale * place.half_width_px, groups);
+    any = true;
+  }
+  if (!any) return candidates;
+  candidates = voter.find(picture, groups, {.area = area});
+  for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, picture.camera);
+  return candidates;
+}
+
+// Level by level, near stones first: they may hide those behind.
+void FarView::Impl::find_stones(const std::vector<FarPlace>& places, const FarArea& area, FarPercept& seen,
+                                FarSketch* sketch) {
+  std::vector<NearerStone> nearer;
+  for (int level = FarLevels::count - 1; level >= 0; --level) {
+    const StonePicture picture = levels[level].picture(response, setup.shape);
+    std::vector<JudgedStone> stones =
+        screening.judge(picture, vote(level, places, area.whole().wider(look_around_m)), nearer);
+    screening.refine(picture, stones, nearer);
+
+    for (JudgedStone& s : stones) {
+      if (s.doubt.empty()) nearer.push_back({s.fit.place, s.fit.handle});
+      if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
+      if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
+      if (sketch != nullptr) {
+        const Eigen::Vector2d pixel = levels[level].scale * s.candidate.pixel;
+        sketch->candidates.push_back({{pixel.x(), pixel.y()}, s.fit.place.x(), s.fit.place.y(), s.doubt});
+      }
+    }
+    seen.candidates += static_cast<int>(stones.size());
+  }
+  seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
 }
 
 FarView::FarView(const FarSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}

@@ -1,6 +1,7 @@
 // What single looks and sequences share. For the source files of FarView and FarSequence only.
 #pragma once
 
+#include "vision/far_view/far_levels.hpp"
 #include "vision/far_view/far_scan.hpp"
 #include "vision/far_view/far_sheet.hpp"
 #include "vision/far_view/far_view.hpp"
@@ -34,12 +35,15 @@ void report_aim(const FarAim& aim, FarPercept& seen);
 struct FarView::Impl {
   explicit Impl(const FarSetup& given);
   FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch);
+  const std::vector<StoneCandidate>& vote(int level, const std::vector<FarPlace>& places, const StoneArea& area);
+  void find_stones(const std::vector<FarPlace>& places, const FarArea& area, FarPercept& seen, FarSketch* sketch);
 
   FarSetup setup;
-  Lens lens;
   ResponseCurve response;
   FarSheet sheet;
+  FarLevels levels;
   FarScan scan;
+  StoneGroups groups;
   StoneVoter voter;
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
