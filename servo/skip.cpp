@@ -98,7 +98,7 @@ struct Skip::Impl {
   void lose_head(std::string why);
   void lose_sight(std::string why);
   void supervise(const SkipObservation& o);
-  void begin_watch(Stamp now);
+  void begin_watch(Stamp now, const PlanarPose& body, const PlanarSigma& sigma);
   void take_in(const SkipObservation& o);
   void take_near(const NearSight& near);
   void take_far(const FarPercept& far);
@@ -140,6 +140,17 @@ Skip::Skip(Skip&&) noexcept = default;
 Skip& Skip::operator=(Skip&&) noexcept = default;
 
 SkipCommand Skip::step(const SkipObservation& observation, Duration dt) { return impl_->step(observation, dt); }
+void Skip::conclude(Stamp now) {
+  if (finished()) return;
+  if (!impl_->watch || !impl_->watch->at(now).thrown()) {
+    impl_->stop(
+        impl_->watch ? "no stone was seen to be thrown" : "sheet and stones were not seen: " + impl_->last_reason, now);
+    return;
+  }
+  impl_->remarks.push_back("it ended before all lay still");
+  impl_->finish(now);
+}
+
 SkipState Skip::state() const { return impl_->state; }
 bool Skip::finished() const { return impl_->state == SkipState::done || impl_->state == SkipState::stopped; }
 const SkipDiagnosis& Skip::diagnosis() const { return impl_->diagnosis; }
@@ -230,6 +241,11 @@ SkipCommand Skip::Impl::boot(const SkipObservation& o) {
 
 SkipCommand Skip::Impl::look(const SkipObservation& o) {
   if (head_lost) return stop(remarks.front(), o.now);
+  if (config.known_body) {
+    begin_watch(o.now, *config.known_body, {});
+    enter(SkipState::aim, o.now);
+    return {};
+  }
   if (o.near_error) return stop(*o.near_error, o.now);
   if (o.now - since > config.deadlines.look) return stop("sheet and stones were not seen: " + last_reason, o.now);
   SkipCommand command{.near_wanted = true};
@@ -252,24 +268,24 @@ SkipCommand Skip::Impl::look(const SkipObservation& o) {
   if (!o.near->sheet.ok) last_reason = o.near->sheet.reason;
   if (o.near->sheet.ok && !o.near->stones.ok) last_reason = o.near->stones.reason;
   if (place.size() >= config.look_frames && standing.looks() >= config.look_frames) {
-    begin_watch(o.now);
+    const StandingPlace seen = *place.average();
+    begin_watch(o.now, seen.body, seen.sigma);
     pointed = false;
     enter(SkipState::aim, o.now);
   }
   return command;
 }
 
-void Skip::Impl::begin_watch(Stamp now) {
-  const StandingPlace seen = *place.average();
-  diagnosis.body = seen.body;
-  diagnosis.body_sigma = seen.sigma;
+void Skip::Impl::begin_watch(Stamp now, const PlanarPose& body, const PlanarSigma& sigma) {
+  diagnosis.body = body;
+  diagnosis.body_sigma = sigma;
   diagnosis.standing = standing.stones();
   CollisionWatchConfig c = config.watch;
   c.world.ice = ice;
   c.world.expected_spin_radps = config.expected_spin_radps;
   c.world.sheet_width_m = diagnosis.sheet_width_m;
-  c.views[static_cast<std::size_t>(View::far)] = view_of(config.aiming.head, seen.body, config.far_tilt_sigma_rad);
-  c.views[static_cast<std::size_t>(View::near)] = view_of(config.near_head, seen.body, config.near_tilt_sigma_rad);
+  c.views[static_cast<std::size_t>(View::far)] = view_of(config.aiming.head, body, config.far_tilt_sigma_rad);
+  c.views[static_cast<std::size_t>(View::near)] = view_of(config.near_head, body, config.near_tilt_sigma_rad);
   watch.emplace(c, now, diagnosis.standing);
   pose_seen = far_seen = now;
 }

@@ -97,6 +97,9 @@ class Skip {
   /// One control period. `observation.now` must not go back.
   SkipCommand step(const SkipObservation& observation, Duration dt);
 
+  /// Nothing more will come: reports what was seen up to now. No effect once finished.
+  void conclude(Stamp now);
+
   SkipState state() const;
   bool finished() const;  ///< done or stopped
   const SkipDiagnosis& diagnosis() const;

@@ -1,6 +1,8 @@
 // What the skip must be told.
 #pragma once
 
+#include <optional>
+
 #include "servo/collision_watch.hpp"
 #include "servo/head_aiming.hpp"
 #include "servo/ice_model.hpp"

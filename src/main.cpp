@@ -21,6 +21,7 @@
 #include "src/skip_command.hpp"
 #include "src/stones_command.hpp"
 #include "src/throw_command.hpp"
+#include "src/track_command.hpp"
 
 namespace {
 
@@ -283,6 +284,7 @@ CLI::App* add_skip(CLI::App& app, hogline::SkipOptions& options) {
   skip->add_option("--ice", options.ice,
                    "file of what throws have taught of the ice: read if it is there, and written after the throw");
   skip->add_option("--out", options.out, "folder for result.json, trajectory.csv and above.png")->capture_default_str();
+  skip->add_option("--record", options.record, "folder for the pictures that were looked at, for `hogline track`");
   skip->add_flag("--json", options.json_only, "print nothing but the JSON object");
   skip->footer(
       "Examples:\n"
@@ -295,6 +297,34 @@ CLI::App* add_skip(CLI::App& app, hogline::SkipOptions& options) {
   return skip;
 }
 
+CLI::App* add_track(CLI::App& app, hogline::TrackOptions& options) {
+  auto* track = app.add_subcommand("track", "a recorded throw, followed as the skip follows a live one");
+  track->add_option("--rig", options.rig, "rig file (YAML) of the skip whose cameras took the pictures")->required();
+  track->add_option("--at", options.at,
+                    "X_M,Y_M,YAW_DEG of the body in the end's frame; without it the near view measures it while the "
+                    "head stands");
+  track->add_option("--spin", options.spin_radps,
+                    "the stone's rate of turn at release, rad/s, counter-clockwise positive; without it not known");
+  track->add_option("--ice", options.ice,
+                    "file of what throws have taught of the ice: read if it is there, and written afterwards");
+  track->add_option("--out", options.out, "folder for result.json, trajectory.csv and above.png")
+      ->capture_default_str();
+  track
+      ->add_option("FOLDER", options.folder,
+                   "of the recording: near.csv and far.csv (name,id,time_s), one of them at least, and head.csv "
+                   "(time_s,pan_deg,tilt_deg)")
+      ->required();
+  track->footer(
+      "Examples:\n"
+      "  hogline skip --throw hit --seed 3 --far-hz 10 --near-hz 10 --record out/recorded\n"
+      "  hogline track --rig config/rigs/skip.yaml --out out/track out/recorded\n"
+      "  hogline track --rig rig.yaml --at 0.1,-4.1,0.5 --spin 1.57 only_far_pictures\n"
+      "doc/skip.md says what the JSON object holds.\n"
+      "Exit status: 0 the throw was followed to its end, 1 it was not (the reason says why), 2 wrong use or\n"
+      "configuration, 3 something outside failed (a disk).");
+  return track;
+}
+
 CLI::App* add_skips(CLI::App& app, hogline::SkipsOptions& options) {
   auto* skips = app.add_subcommand("skips", "the set of 40 throws on which the skip is measured, as a table");
   skips->add_option("--rig", options.rig, "rig file (YAML); without it the practice skip");
@@ -304,6 +334,7 @@ CLI::App* add_skips(CLI::App& app, hogline::SkipsOptions& options) {
       ->check(whole_number);
   skips->add_option("--only", options.only, "this many throws, spread over the set")
       ->check(CLI::Range(1, hogline::throws_in_set));
+  skips->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
   skips->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
   skips->add_option("--far-hz", options.far_hz, "rate of the far camera")->check(CLI::Range(2.0, 200.0));
   skips->add_option("--near-hz", options.near_hz, "rate of the near camera")->check(CLI::Range(2.0, 200.0));
@@ -355,6 +386,8 @@ int run(int argc, char** argv) {
   const auto* sights = add_sights(app, sights_options);
   hogline::SkipOptions skip_options;
   const auto* skip = add_skip(app, skip_options);
+  hogline::TrackOptions track_options;
+  const auto* track = add_track(app, track_options);
   hogline::SkipsOptions skips_options;
   const auto* skips = add_skips(app, skips_options);
   check_subcommand(app, argc, argv);
@@ -372,6 +405,7 @@ int run(int argc, char** argv) {
   if (*campaign) return hogline::run_campaign(campaign_options);
   if (*sights) return hogline::run_sights(sights_options);
   if (*skip) return hogline::run_skip(skip_options);
+  if (*track) return hogline::run_track(track_options);
   if (*skips) return hogline::run_skips(skips_options);
   if (*demo) return hogline::run_demo(demo_options);
   return ExitStatus::wrong_use;

@@ -42,6 +42,8 @@ int run_skip(const SkipOptions& options) {
   request.announced = !options.unannounced;
   request.ice = servo::IceModel(servo::IceModelConfig{}).estimate();
   if (!options.ice.empty()) request.ice = load_ice(options.ice).value_or(request.ice);
+  if (!options.record.empty()) check_folder(options.record);
+  request.record = options.record;
   if (!options.json_only) fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   SkipProgress progress;
   if (!options.json_only) progress = StateTeller();
@@ -62,7 +64,8 @@ int run_skips(const SkipsOptions& options) {
               .only = options.only,
               .eyes = options.oracle ? SkipEyes::oracle : SkipEyes::vision,
               .far_hz = options.far_hz,
-              .near_hz = options.near_hz};
+              .near_hz = options.near_hz,
+              .jobs = options.jobs};
   const bool all_well = run_set(set, options.out);
   return all_well ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -15,7 +15,8 @@ struct SkipOptions {
   bool unannounced = false;
   double far_hz = 0.0;  ///< 0: the scenario's
   double near_hz = 0.0;
-  std::string ice;  ///< file, read if it is there and written afterwards; empty: none
+  std::string ice;     ///< file, read if it is there and written afterwards; empty: none
+  std::string record;  ///< folder for the pictures; empty: none are kept
   std::string out = "out/skip";
   bool json_only = false;
 };
@@ -29,6 +30,7 @@ struct SkipsOptions {
   std::string scenario;
   std::uint64_t seed = 1;
   int only = 0;  ///< this many of the set's throws; 0: all
+  int jobs = 1;  ///< throws at a time
   bool oracle = false;
   double far_hz = 0.0;
   double near_hz = 0.0;

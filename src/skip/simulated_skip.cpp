@@ -7,6 +7,7 @@
 
 #include "servo/skip_sheet.hpp"
 #include "src/skip/skip_record.hpp"
+#include "src/skip/skip_recording.hpp"
 #include "src/skip/skip_vision.hpp"
 
 namespace hogline {
@@ -128,7 +129,9 @@ SkipOutcome follow_throw(const SkipRequest& request, const SkipProgress& progres
   } else {
     seer = std::make_unique<SkipVision>(request.rig);
   }
-  SkipLoop loop(robot.devices(), *seer,
+  std::unique_ptr<RecordingSeer> recorder;
+  if (!request.record.empty()) recorder = std::make_unique<RecordingSeer>(*seer, request.record);
+  SkipLoop loop(robot.devices(), recorder ? static_cast<SkipSeer&>(*recorder) : *seer,
                 servo::Skip(configured(request), servo::from_other_end(request.ice), robot.rink().now()));
   SkipRecord record(request, robot);
   const Duration period = request.rig.head.timing.control_period;

@@ -57,6 +57,7 @@ struct SkipRequest {
   servo::IceEstimate ice;                             ///< in s, as known before the throw
   Duration released_after = std::chrono::seconds(9);  ///< the rink's start
   int render_threads = 1;
+  std::string record{};                                    ///< folder for the pictures; empty: none are kept
   std::function<void(SimulatedSkip&, Stamp)> interfere{};  ///< called each control period: faults
 };
 

@@ -1,13 +1,17 @@
 #include "src/skip/skip_set.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
@@ -79,7 +83,16 @@ struct Sum {
   bool well() const { return failed + missed + invented + swaps + wrong_fates == 0 && room_deg > 0.0; }
 };
 
-std::string table(const Sum& s, const SkipSet& set, double far_hz, double near_hz) {
+Sum sum_of(const std::vector<std::optional<SkipFigures>>& figures) {
+  Sum sum;
+  for (const auto& f : figures) {
+    if (f) sum.add(*f);
+  }
+  return sum;
+}
+
+std::string table(const Sum& s, const SkipSet& set, const SkipRequest& example) {
+  const double far_hz = example.scenario.skip->far_camera.rate_hz, near_hz = example.scenario.near_camera.rate_hz;
   std::string t = fmt::format(
       "{} throws seen by {}, far camera {:.0f} Hz, near camera {:.0f} Hz\n\n| figure | asked for | reached "
       "|\n|---|---|---|\n",
@@ -197,26 +210,34 @@ SkipRequest request_of(const SkipSet& set, int number) {
 }
 
 bool run_set(const SkipSet& set, const std::string& folder) {
-  Sum sum;
-  std::string rows = csv_header();
   const int count = set.only > 0 ? std::min(set.only, throws_in_set) : throws_in_set;
-  double far_hz = 0.0, near_hz = 0.0;
-  for (int k = 0; k < count; ++k) {
-    // A part of the set is spread over it.
-    const int number = k * throws_in_set / count;
-    const SkipRequest request = request_of(set, number);
-    far_hz = request.scenario.skip->far_camera.rate_hz;
-    near_hz = request.scenario.near_camera.rate_hz;
-    const SkipFigures figures = figures_of(follow_throw(request));
-    sum.add(figures);
-    const std::string line = csv_line(number, request, figures);
-    rows += line;
-    fmt::print(stderr, "{}", line);
-    write(folder + "/throws.csv", rows);
+  const SkipRequest example = request_of(set, 0);
+  std::vector<std::optional<SkipFigures>> figures(static_cast<std::size_t>(count));
+  std::vector<std::string> rows(figures.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex table_mutex;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < figures.size(); k = next++) {
+      // A part of the set is spread over it.
+      const int number = static_cast<int>(k) * throws_in_set / count;
+      const SkipRequest request = request_of(set, number);
+      const SkipFigures f = figures_of(follow_throw(request));
+      const std::lock_guard lock(table_mutex);
+      figures[k] = f;
+      rows[k] = csv_line(number, request, f);
+      fmt::print(stderr, "{}", rows[k]);
+      write(folder + "/throws.csv", csv_header() + fmt::format("{}", fmt::join(rows, "")));
+      const std::string text = table(sum_of(figures), set, example);
+      write(folder + "/table.md", text);
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < set.jobs; ++i) helpers.emplace_back(work);
+    work();
   }
-  const std::string text = table(sum, set, far_hz, near_hz);
-  write(folder + "/table.md", text);
-  fmt::print("{}", text);
+  const Sum sum = sum_of(figures);
+  fmt::print("{}", table(sum, set, example));
   return sum.well();
 }
 

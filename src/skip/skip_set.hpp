@@ -27,6 +27,7 @@ struct SkipSet {
   SkipEyes eyes = SkipEyes::oracle;
   double far_hz = 0.0;
   double near_hz = 0.0;
+  int jobs = 1;  ///< throws at a time
 };
 
 /// 40 throws: 12 draws, 6 guards, 8 hits, 6 doubles, 4 through, 4 hogged, each on an ice of its own that nobody told
@@ -34,7 +35,8 @@ struct SkipSet {
 SkipRequest request_of(const SkipSet& set, int number);
 inline constexpr int throws_in_set = 40;
 
-/// Writes FOLDER/throws.csv (a row a throw) and FOLDER/table.md, and prints the table. True: nothing was missed.
+/// Writes FOLDER/throws.csv (a row a throw) and FOLDER/table.md, and prints the table; the same whatever the jobs.
+/// True: nothing was missed.
 bool run_set(const SkipSet& set, const std::string& folder);
 
 }  // namespace hogline

@@ -19,6 +19,7 @@ constexpr double most_residual_px = 0.5;  // as the near view asks of its acquis
 constexpr double most_turn_rad = 0.012;   // of the fitted camera against body and joints
 constexpr double most_shift_m = 0.06;
 constexpr double tilt_step_rad = 0.026;  // 1.5 deg
+constexpr double same_angle_rad = 5e-4;
 
 vision::Pose pose_of(const servo::HeadGeometry& head, const servo::HeadAngles& q, const PlanarPose& body) {
   const servo::HeadPose at = servo::camera_pose(head, q);
@@ -55,10 +56,12 @@ struct SkipVision::Impl {
       : rig(skip_rig), near(rig.rig.camera("near")), fit(rig.rig.camera("near")), far(far_setup(rig)) {}
 
   SheetPosePercept fitted(const hw::Frame& frame, const servo::HeadAngles& q, const servo::SkipDiagnosis& known);
+  SheetPosePercept acquired(const hw::Frame& frame, const servo::HeadAngles& q);
   vision::StoneFinder& finder_at(double tilt_rad);
 
   config::SkipRig rig;
-  vision::NearView near;
+  std::optional<vision::NearView> near;  ///< for the mount as the head holds it
+  std::optional<servo::HeadAngles> near_at;
   vision::SheetFit fit;
   std::map<int, vision::StoneFinder> finders;  ///< by the head's tilt, in steps
   vision::FarView far;
@@ -92,6 +95,18 @@ SheetPosePercept SkipVision::Impl::fitted(const hw::Frame& frame, const servo::H
   return percept;
 }
 
+SheetPosePercept SkipVision::Impl::acquired(const hw::Frame& frame, const servo::HeadAngles& q) {
+  const bool same =
+      near_at && std::hypot(q.pan_rad - near_at->pan_rad, q.tilt_rad - near_at->tilt_rad) < same_angle_rad;
+  if (!same) {
+    vision::CameraSetup setup = rig.rig.camera("near");
+    setup.mount = mount_of(rig.skip.near_head, q);
+    near.emplace(setup);
+    near_at = q;
+  }
+  return near->acquire(frame.bgr, frame.stamp);
+}
+
 // Where in the picture how large a stone may be is worked out once for each mount: one for every step of tilt. Pan does
 // not change it.
 vision::StoneFinder& SkipVision::Impl::finder_at(double tilt_rad) {
@@ -106,7 +121,7 @@ vision::StoneFinder& SkipVision::Impl::finder_at(double tilt_rad) {
 servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::HeadAngles& q,
                                        const servo::SkipDiagnosis& known) {
   servo::NearSight sight;
-  sight.sheet = known.body ? impl_->fitted(frame, q, known) : impl_->near.acquire(frame.bgr, frame.stamp);
+  sight.sheet = known.body ? impl_->fitted(frame, q, known) : impl_->acquired(frame, q);
   sight.stones.stamp = frame.stamp;
   if (!sight.sheet.ok) {
     sight.stones.reason = "the sheet's pose: " + sight.sheet.reason;
