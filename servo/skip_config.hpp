@@ -36,12 +36,13 @@ struct SkipConfig {
   double far_tilt_sigma_rad = 0.0;  ///< what all looks of a view share, beyond what their percepts say
   double near_tilt_sigma_rad = 0.0;
   ThrowFitConfig fit;
-  HeadAngles look;                    ///< of the head while sheet and stones are measured
-  int look_frames = 0;                ///< pictures that are taken for it
-  Duration settle{};                  ///< the head stands for so long before they count
-  Place wait_at;                      ///< where the head waits for the stone
-  double hand_over_y_m = hog_line_m;  ///< far view beyond it, near view on this side
-  double hand_over_overlap_m = 1.0;   ///< both views are taken within this of it
+  std::optional<PlanarPose> known_body{};  ///< then sheet and standing stones are not looked at first
+  HeadAngles look;                         ///< of the head while sheet and stones are measured
+  int look_frames = 0;                     ///< pictures that are taken for it
+  Duration settle{};                       ///< the head stands for so long before they count
+  Place wait_at;                           ///< where the head waits for the stone
+  double hand_over_y_m = hog_line_m;       ///< far view beyond it, near view on this side
+  double hand_over_overlap_m = 1.0;        ///< both views are taken within this of it
   double moved_m = 0.05;  ///< the body has been moved if the near view says that it stands elsewhere by this
   double moved_rad = 0.01;
   double expected_spin_radps = 0.0;  ///< as ordered; 0: not known

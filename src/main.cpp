@@ -274,6 +274,8 @@ CLI::App* add_skip(CLI::App& app, hogline::SkipOptions& options) {
   skip->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
       ->capture_default_str()
       ->check(whole_number);
+  skip->add_option("--number", options.number, "this throw of the set that `hogline skips` measures, instead")
+      ->check(CLI::Range(0, hogline::throws_in_set - 1));
   skip->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
   skip->add_flag("--unannounced", options.unannounced,
                  "the thrower does not tell when it lets go, nor which way it turns");

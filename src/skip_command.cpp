@@ -29,18 +29,35 @@ class StateTeller {
   std::optional<servo::SkipState> last_;
 };
 
+SkipRequest request_of(const SkipOptions& options) {
+  const config::SkipRig rig = load_skip_rig_or_practice(options.rig);
+  const SkipEyes eyes = options.oracle ? SkipEyes::oracle : SkipEyes::vision;
+  if (options.number >= 0) {
+    const SkipSet set{.rig = rig,
+                      .scenario = options.scenario,
+                      .first_seed = options.seed,
+                      .only = 0,
+                      .eyes = eyes,
+                      .far_hz = options.far_hz,
+                      .near_hz = options.near_hz};
+    return request_of(set, options.number);
+  }
+  SkipRequest request;
+  request.rig = rig;
+  request.scenario = load_skip_scenario(options.scenario, options.seed);
+  set_rates(request.scenario, options.far_hz, options.near_hz);
+  request.scene = draw_scene(*throw_kind(options.kind), request.scenario, options.seed);
+  request.eyes = eyes;
+  request.announced = !options.unannounced;
+  request.ice = servo::IceModel(servo::IceModelConfig{}).estimate();
+  return request;
+}
+
 }  // namespace
 
 int run_skip(const SkipOptions& options) {
   check_folder(options.out);
-  SkipRequest request;
-  request.rig = load_skip_rig_or_practice(options.rig);
-  request.scenario = load_skip_scenario(options.scenario, options.seed);
-  set_rates(request.scenario, options.far_hz, options.near_hz);
-  request.scene = draw_scene(*throw_kind(options.kind), request.scenario, options.seed);
-  request.eyes = options.oracle ? SkipEyes::oracle : SkipEyes::vision;
-  request.announced = !options.unannounced;
-  request.ice = servo::IceModel(servo::IceModelConfig{}).estimate();
+  SkipRequest request = request_of(options);
   if (!options.ice.empty()) request.ice = load_ice(options.ice).value_or(request.ice);
   if (!options.record.empty()) check_folder(options.record);
   request.record = options.record;

@@ -10,6 +10,7 @@ struct SkipOptions {
   std::string rig;       ///< empty: the practice skip
   std::string scenario;  ///< empty: the practice rink
   std::string kind = "draw";
+  int number = -1;  ///< of the set's throws, instead of kind and ice; -1: none
   std::uint64_t seed = 1;
   bool oracle = false;
   bool unannounced = false;

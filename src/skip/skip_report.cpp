@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 constexpr double deg = 180.0 / std::numbers::pi;
 
-double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 ordered_json measured(const std::optional<servo::Measured>& m) {
   if (!m) return nullptr;
@@ -100,15 +100,15 @@ ordered_json foretold(const ToldThrow& told) {
 ordered_json figures(const SkipOutcome& outcome) {
   const SkipFigures f = figures_of(outcome);
   const auto region = [](const RegionErrors& r) {
-    return ordered_json{{"house_m", rounded(r.house_m.value(), 1e-5)},
-                        {"near_hog_m", rounded(r.near_hog_m.value(), 1e-5)},
-                        {"far_hog_m", rounded(r.far_hog_m.value(), 1e-5)}};
+    return ordered_json{{"house_m", rounded(r.house_m.value(), 1e5)},
+                        {"near_hog_m", rounded(r.near_hog_m.value(), 1e5)},
+                        {"far_hog_m", rounded(r.far_hog_m.value(), 1e5)}};
   };
   ordered_json rest = ordered_json::array();
-  for (const double e : f.rest_errors_m) rest.push_back(rounded(e, 1e-5));
-  return {{"aim_rms_deg", rounded(f.aim_deg.value(), 1e-5)},
-          {"aim_worst_deg", rounded(f.worst_aim_deg, 1e-5)},
-          {"joint_room_deg", rounded(f.room_deg, 1e-3)},
+  for (const double e : f.rest_errors_m) rest.push_back(rounded(e, 1e5));
+  return {{"aim_rms_deg", rounded(f.aim_deg.value(), 1e5)},
+          {"aim_worst_deg", rounded(f.worst_aim_deg, 1e5)},
+          {"joint_room_deg", rounded(f.room_deg, 1e3)},
           {"settle_s", f.settle_s},
           {"trajectory_rms", region(f.trajectory)},
           {"live_rms", region(f.live)},
@@ -121,7 +121,7 @@ ordered_json figures(const SkipOutcome& outcome) {
           {"wrong_fates", f.wrong_fates},
           {"near_frames", outcome.near_frames},
           {"far_frames", outcome.far_frames},
-          {"simulated_s", rounded(outcome.simulated_s, 1e-3)}};
+          {"simulated_s", rounded(outcome.simulated_s, 1e3)}};
 }
 
 void write_text(const std::string& path, const std::string& text) {
