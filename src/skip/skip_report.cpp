@@ -44,6 +44,11 @@ const char* name_of(servo::StoneFate fate) {
   return "unknown";
 }
 
+std::string name_of(Team team, const TeamNames& names) {
+  if (team == Team::unknown) return "unknown";
+  return team == Team::first ? names.first : names.second;
+}
+
 ordered_json collisions(const ToldThrow& told) {
   ordered_json all = ordered_json::array();
   for (const servo::WorldCollision& c : told.report->result.collisions) {
@@ -60,7 +65,7 @@ ordered_json stones(const ToldThrow& told) {
   ordered_json all = ordered_json::array();
   for (const servo::StoneOutcome& s : told.report->result.stones) {
     all.push_back({{"id", s.id},
-                   {"team", team_name(s.team, told.teams)},
+                   {"team", name_of(s.team, told.teams)},
                    {"thrown", s.thrown},
                    {"moved", s.moved},
                    {"fate", name_of(s.fate)},

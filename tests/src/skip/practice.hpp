@@ -10,7 +10,7 @@ inline SkipRequest practice_throw(ThrowKind kind, std::uint64_t seed) {
   SkipRequest request;
   request.rig = load_skip_rig_or_practice("");
   request.scenario = load_skip_scenario("", seed);
-  set_rates(request.scenario, 30.0, 30.0);
+  set_rates(request.scenario, 20.0, 20.0);
   request.scene = draw_scene(kind, request.scenario, seed);
   request.ice = servo::IceModel(servo::IceModelConfig{}).estimate();
   request.released_after = std::chrono::seconds(3);

@@ -74,7 +74,7 @@ TEST(Track, follows_a_throw_that_only_the_far_camera_recorded) {
   for (int i = 0; i < 300; ++i)
     frames += "f" + std::to_string(i) + ".jpg," + std::to_string(i) + "," + std::to_string(7.0 + 0.05 * i) + "\n";
   folder.write("far.csv", frames);
-  folder.write("head.csv", std::string(angles_head) + "7.0,0,-10\n22.0,1,-8\n");
+  folder.write("head.csv", std::string(angles_head) + "7.0,0,-10\n25.0,1,-8\n");
 
   const servo::StonePath path({0.1, 29.2, -0.03, -2.1, 1.5}, {});
   FarOnly seer(path, Stamp{std::chrono::milliseconds(1500)});
@@ -84,7 +84,7 @@ TEST(Track, follows_a_throw_that_only_the_far_camera_recorded) {
   const TrackedThrow tracked =
       track_recording(read_skip_recording(folder.path()), config, servo::IceModel(servo::IceModelConfig{}).estimate(),
                       seer, [](const auto&) { return hw::Frame{}; });
-  EXPECT_EQ(tracked.far_frames, 300);
+  EXPECT_EQ(tracked.far_frames, 340);
   EXPECT_FALSE(tracked.report.ok) << "it ended while the stone ran";
   EXPECT_EQ(tracked.report.reason, "it ended before all lay still");
   ASSERT_TRUE(tracked.report.result.ok);
