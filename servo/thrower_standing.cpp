@@ -1,9 +1,10 @@
-// The states before the run: unfold, measure, align, fold.
+// The states before the run: unfold, rehearse, measure, align, fold.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "servo/refusal.hpp"
+#include "servo/release_learning.hpp"
 #include "servo/thrower_impl.hpp"
 
 namespace hogline::servo {
@@ -23,8 +24,28 @@ ThrowerCommand Thrower::Impl::unfold(const ThrowerObservation& o) {
   const bool wheels = o.wheels && (o.wheels->ready || o.wheels->enabled);
   const bool gyro = o.gyro && o.gyro->valid;
   const bool stone = o.gripper && o.gripper->holding && !o.gripper->open;
-  if (up && wheels && gyro && stone) enter(ThrowerState::measure, o.now);
+  if (up && wheels && gyro && stone) {
+    enter(config.release.rehearsals > 0 ? ThrowerState::rehearse : ThrowerState::measure, o.now);
+  }
   return standing(ArmOrder::unfold, CameraOrder::none);  // a folded head sees darkness
+}
+
+// Nothing else moves, and the drives are without power. Where the robot stands must have been seen: the stone is set
+// down in the hack, or not at all.
+ThrowerCommand Thrower::Impl::rehearse(const ThrowerObservation& o) {
+  ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
+  if (!o.near_view || !o.near_view->ok || o.near_view->stamp < history.back().since) return command;
+  const RehearsalStep step = rehearsal.step(*o.gripper, o.now);
+  command.gripper.trial = step.order;
+  if (!step.refused.empty()) abort.set("rehearsal: " + step.refused);
+  if (!step.done) return command;
+
+  const auto lesson = learn_rehearsed(prior_of(config.release), rehearsal.delays_s(), config.release.gripper_jitter_s);
+  if (!lesson.refused.empty()) abort.set("rehearsal: " + lesson.refused);
+  config.release = with_knowledge(config.release, lesson.knowledge);
+  diagnosis.rehearsed_delays_s = rehearsal.delays_s();
+  enter(ThrowerState::measure, o.now);
+  return command;
 }
 
 ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {

@@ -18,6 +18,7 @@
 #include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults/random_faults.hpp"
+#include "src/faults/strike_journal.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -112,10 +113,15 @@ int run_faults_at_random(const CampaignOptions& options) {
                               "must be all, or a part of a fault's name");
   }
   const int count = static_cast<int>(chosen.size()) * options.per_fault;
-  int done = 0;
-  const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, [&] {
+  faults::StrikeJournal journal(options.out + "/strikes.jsonl", chosen, options.seed, this_program());
+  int done = static_cast<int>(journal.known().size());
+  if (done > 0) fmt::print(stderr, "{} throws are in {} already\n", done, options.out);
+  const auto note = [&](const faults::StrikePlace& place, const faults::RandomStrike& strike) {
+    journal.append(place, strike);
     if (++done % 50 == 0 || done == count) fmt::print(stderr, "{} of {} throws with a fault\n", done, count);
-  });
+  };
+  const auto known = journal.known();
+  const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, note, known);
   write(options.out + "/faults.csv", faults::strikes_csv(strikes));
   const std::string page = faults::strikes_page(strikes);
   write(options.out + "/faults.md", page);

@@ -14,6 +14,8 @@
 #include "src/doctor_command.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults_command.hpp"
+#include "src/keys_command.hpp"
+#include "src/link_command.hpp"
 #include "src/pose_command.hpp"
 #include "src/sights_command.hpp"
 #include "src/skip/skip_scene.hpp"
@@ -349,6 +351,41 @@ CLI::App* add_skips(CLI::App& app, hogline::SkipsOptions& options) {
   return skips;
 }
 
+CLI::App* add_keys(CLI::App& app, hogline::KeysOptions& options) {
+  auto* keys = app.add_subcommand("keys", "keys for the team's link: then nobody else hears it or speaks on it");
+  keys->add_option("--out", options.out, "folder for the keys; it must not hold any")->required();
+  keys->add_option("--domain", options.domain, "the DDS domain for which they are, as link.domain in the rigs")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  keys->add_option("--thrower", options.thrower, "name of the robot that throws")->capture_default_str();
+  keys->add_option("--skip", options.skip, "name of the robot that orders the shots")->capture_default_str();
+  keys->add_option("--observer", options.observers, "name of a machine that may listen and stop all; repeatable");
+  keys->add_option("--days", options.days, "how long they hold")->capture_default_str()->check(CLI::Range(1, 3650));
+  keys->footer(
+      "Examples:\n"
+      "  hogline keys --out keys --domain 7\n"
+      "  hogline keys --out keys --observer scoreboard --observer coach --days 30\n"
+      "Exit status: 0 made, 2 wrong use (a folder that holds keys, a name that is none),\n"
+      "3 something outside failed (a disk).");
+  return keys;
+}
+
+CLI::App* add_link(CLI::App& app, hogline::LinkOptions& options) {
+  auto* link = app.add_subcommand("link", "who is on the rig's link, and how far the clocks are apart");
+  link->add_option("--rig", options.rig, "rig file (YAML) with a link section: the robot to be")->required();
+  link->add_option("--seconds", options.seconds, "how long to listen")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 86400.0));
+  link->add_flag("--json", options.json, "one JSON object a peer");
+  link->footer(
+      "Sends nothing but heartbeats. Do not run it for a robot whose own program is running.\n"
+      "Example:\n"
+      "  hogline link --rig skip.yaml --seconds 5\n"
+      "Exit status: 0 all peers are there at the end, 1 one is not, 2 wrong use or configuration,\n"
+      "3 something outside failed (no such interface, no keys).");
+  return link;
+}
+
 // The parser itself would only say that a word was not expected.
 void check_subcommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -392,6 +429,10 @@ int run(int argc, char** argv) {
   const auto* track = add_track(app, track_options);
   hogline::SkipsOptions skips_options;
   const auto* skips = add_skips(app, skips_options);
+  hogline::KeysOptions keys_options;
+  const auto* keys = add_keys(app, keys_options);
+  hogline::LinkOptions link_options;
+  const auto* link = add_link(app, link_options);
   check_subcommand(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -404,6 +445,8 @@ int run(int argc, char** argv) {
   if (*throwing) return hogline::run_throw(throw_options);
   if (*doctor) return hogline::run_doctor(doctor_options);
   if (*faults) return hogline::run_faults(faults_options);
+  if (*keys) return hogline::run_keys(keys_options);
+  if (*link) return hogline::run_link(link_options);
   if (*campaign) return hogline::run_campaign(campaign_options);
   if (*sights) return hogline::run_sights(sights_options);
   if (*skip) return hogline::run_skip(skip_options);

@@ -44,6 +44,15 @@ void boot(SimulatedRobot& robot, Duration period) {
   }
 }
 
+void pass_period(hw::sim::Rink& rink, ThrowerLoop& loop, Duration period) {
+  const Stamp end = rink.now() + period;
+  if (const auto due = loop.release_due(); due && *due < end) {
+    if (*due > rink.now()) rink.step(*due - rink.now());
+    loop.let_go(rink.now());
+  }
+  if (rink.now() < end) rink.step(end - rink.now());
+}
+
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) {
   SimulatedRobot robot(simulated_rig(request), request.scenario, request.render_threads);
   const Duration period = request.rig.drive.timing.control_period;
@@ -59,7 +68,7 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   loop.arm(start);
   ThrowRecorder recorder(request, robot, start);
   for (;;) {
-    robot.rink().step(period);
+    pass_period(robot.rink(), loop, period);
     const Stamp now = robot.rink().now();
     recorder.before(now, loop.thrower());
     loop.step(now, period);

@@ -54,6 +54,9 @@ OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig)
 /// The devices boot and answer before anybody is asked to throw.
 void boot(SimulatedRobot& robot, Duration period);
 
+/// One control period of the rink: a release that is due within it is ordered at its moment.
+void pass_period(hw::sim::Rink& rink, ThrowerLoop& loop, Duration period);
+
 /// The same request gives the same outcome but for wall_time_s, which is left zero.
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress);
 

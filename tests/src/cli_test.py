@@ -119,6 +119,45 @@ class WrongUse(unittest.TestCase):
         self.assertEqual(run().returncode, 2)
 
 
+class Link(unittest.TestCase):
+    """Keys and the link's own command; what goes over the wire is tested in tests/hw/link."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_keys_are_made_once(self):
+        keys = os.path.join(self.folder.name, "keys")
+        made = run("keys", "--out", keys, "--domain", "7", "--observer", "coach")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("coach.permissions.p7s", made.stdout)
+        again = run("keys", "--out", keys, "--domain", "7")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("holds a team's keys", again.stderr)
+
+    def test_wrong_uses_of_keys(self):
+        for words in (["--domain", "233"], ["--days", "0"], ["--skip", "a/b"], ["--observer", "skip"]):
+            refused = run("keys", "--out", os.path.join(self.folder.name, "none"), *words)
+            self.assertEqual(refused.returncode, 2, words)
+
+    def test_a_rig_without_a_link(self):
+        refused = run("link", "--rig", RIG)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("link", refused.stderr)
+
+    def test_alone_on_the_link(self):
+        with open(RIG, encoding="utf-8") as f:
+            text = f.read()
+        path = os.path.join(self.folder.name, "skip.yaml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(text + f"\nlink: {{robot: skip, peers: [thrower], domain: {os.getpid() % 200}, interface: lo}}\n")
+        alone = run("link", "--rig", path, "--seconds", "0.2", "--json")
+        self.assertEqual(alone.returncode, 1, alone.stderr)
+        self.assertEqual(json.loads(alone.stdout)["presence"], "not heard")
+
+
 class Pose(unittest.TestCase):
     def test_prints_one_json_object_a_picture(self):
         result = run("pose", "--rig", RIG, "--camera", "near", SCENE, SCENE)

@@ -1,5 +1,6 @@
 #include "vision/far_view/far_levels.hpp"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 namespace hogline::vision {
@@ -28,19 +29,20 @@ FarLevels::FarLevels(const Intrinsics& intrinsics) {
   }
 }
 
-void FarLevels::begin(const cv::Mat& bgr, const ResponseCurve& response) {
+void FarLevels::begin(const cv::Mat& bgr, int top, const ResponseCurve& response, const Pose& eMc, const Ice& ice) {
   levels_[0].bgr = bgr;
-  for (std::size_t i = 1; i < count; ++i) {
+  int first = std::clamp(top, 0, bgr.rows - 16) & ~15;
+  for (std::size_t i = 1; i < count; ++i, first /= 2) {
     const cv::Mat& larger = levels_[i - 1].bgr;
-    const cv::Rect even(0, 0, larger.cols & ~1, larger.rows & ~1);
-    cv::resize(larger(even), levels_[i].bgr, {even.width / 2, even.height / 2}, 0.0, 0.0, cv::INTER_AREA);
+    const cv::Size half(larger.cols / 2, larger.rows / 2);
+    levels_[i].bgr.create(half, CV_8UC3);
+    cv::Mat lower = levels_[i].bgr.rowRange(first / 2, half.height);
+    cv::resize(larger(cv::Rect(0, first, 2 * half.width, 2 * half.height - first)), lower, lower.size(), 0.0, 0.0,
+               cv::INTER_AREA);
   }
-  levels_[1].ice.emplace(levels_[1].bgr, response, 0);
+  levels_[1].ice.emplace(levels_[1].bgr, response, 2 * first);
   levels_[0].ice = levels_[1].ice->in_smaller(0.5);
   levels_[2].ice = levels_[1].ice->in_smaller(2.0);
-}
-
-void FarLevels::look_from(const Pose& eMc, const Ice& ice) {
   for (FarLevel& level : levels_) level.camera.emplace(*level.lens, eMc, ice);
 }
 

@@ -32,10 +32,8 @@ class FarLevels {
 
   explicit FarLevels(const Intrinsics& intrinsics);
 
-  /// Takes up a picture; it is used until the next one.
-  void begin(const cv::Mat& bgr, const ResponseCurve& response);
-  /// How the camera looked at it.
-  void look_from(const Pose& eMc, const Ice& ice);
+  /// Takes up a picture, from row `top` down, and how the camera looked at it; it is used until the next one.
+  void begin(const cv::Mat& bgr, int top, const ResponseCurve& response, const Pose& eMc, const Ice& ice);
 
   /// Half the size: fine enough to search all of it.
   const FarLevel& middle() const { return levels_[1]; }

@@ -46,7 +46,7 @@ FarScan::Row FarScan::plan_row(const StonePicture& picture, const StoneArea& are
   row.granite_top = in_steps(begin->y() - centre->y());
   row.foot = std::max(row.granite_top + 1, in_steps(foot->y() - centre->y()));
   row.above = std::min(-1, in_steps(grip->y() - centre->y()));
-  if (2 * row.half_width >= margin || 2 * row.foot >= margin) return row;
+  if (2 * row.half_width >= margin) return row;
   const double per_step = step_px * (right->x() - left->x()) / (width - 1.0);
   const int columns = picture.bgr.cols / step_px;
   row.first = std::clamp(static_cast<int>(std::ceil((-area.half_width_m - left->x()) / per_step)), 0, columns);
@@ -55,25 +55,36 @@ FarScan::Row FarScan::plan_row(const StonePicture& picture, const StoneArea& are
   return row;
 }
 
-void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area) {
-  rows_.clear();
-  first_row_ = picture.bgr.rows / step_px;
-  for (int r = 0; r < picture.bgr.rows / step_px; ++r) {
-    rows_.push_back(plan_row(picture, area, r * step_px));
-    if (rows_.back().seen) first_row_ = std::min(first_row_, r);
+// Sizes change slowly from row to row: some rows share their plan.
+void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area, const Part& part) {
+  const int rows = picture.bgr.rows / step_px;
+  const double z_m = picture.shape.handle_height_m;
+  const auto farthest = picture.camera.project({0.0, area.max_y_m, z_m});
+  const int top = farthest ? std::clamp(static_cast<int>(farthest->y() / step_px) - 2, 0, rows) : 0;
+  first_row_ = top + (rows - top) * part.number / part.count;
+  last_row_ = top + (rows - top) * (part.number + 1) / part.count;
+  rows_.assign(static_cast<std::size_t>(rows), {});
+  base_row_ = last_row_;
+  int end = first_row_;
+  for (int r = first_row_; r < last_row_; r += planned_together) {
+    const Row row = plan_row(picture, area, std::min(r + planned_together / 2, rows - 1) * step_px);
+    for (int i = r; i < std::min(r + planned_together, last_row_); ++i) rows_[static_cast<std::size_t>(i)] = row;
+    if (!row.seen) continue;
+    base_row_ = std::min(base_row_, r + row.above);
+    end = std::max(end, std::min(r + planned_together, last_row_) + 2 * row.foot + 2);
   }
+  granite_.create(std::max(1, end - base_row_), picture.bgr.cols / step_px + 2 * margin, CV_8UC1);
 }
 
-// In steps, 1 where the picture may show granite, below the first row that is looked at.
+// In steps, 1 where the picture may show granite; nothing of it beyond the picture.
 void FarScan::find_granite(const StonePicture& picture) {
-  const int rows = picture.bgr.rows / step_px;
   const int columns = picture.bgr.cols / step_px;
-  granite_.create(rows + 2 * margin, columns + 2 * margin, CV_8UC1);
   granite_.setTo(0);
-  const int first = std::max(0, first_row_ + (rows_[static_cast<std::size_t>(first_row_)].above - 1));
-  for (int r = first; r < rows; ++r) {
+  const int first = std::max(0, base_row_);
+  const int last = std::min(picture.bgr.rows / step_px, base_row_ + granite_.rows);
+  for (int r = first; r < last; ++r) {
     const int y = step_px * r;
-    std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
+    std::uint8_t* out = granite_.ptr<std::uint8_t>(r - base_row_) + margin;
     const std::uint8_t* in = picture.bgr.ptr<std::uint8_t>(y);
     for (int begin = 0; begin < columns; begin += white_run) {
       const int end = std::min(begin + white_run, columns);
@@ -92,8 +103,8 @@ void FarScan::find_granite(const StonePicture& picture) {
 // Of granite, in steps of the picture; ends are exclusive.
 float FarScan::share(int left, int top, int right, int bottom) const {
   const int area = std::max(1, (right - left) * (bottom - top));
-  const int* upper = sums_.ptr<int>(top + margin);
-  const int* lower = sums_.ptr<int>(bottom + margin);
+  const int* upper = sums_.ptr<int>(std::clamp(top - base_row_, 0, granite_.rows));
+  const int* lower = sums_.ptr<int>(std::clamp(bottom - base_row_, 0, granite_.rows));
   const int count = lower[right + margin] - lower[left + margin] - upper[right + margin] + upper[left + margin];
   return static_cast<float>(count) / static_cast<float>(area);
 }
@@ -117,16 +128,16 @@ float FarScan::score(const Row& row, int c, int r) const {
   return body - 0.5F * std::min(left, right) - 0.2F * std::max(left, right) - 0.3F * under - 0.5F * handle;
 }
 
-const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const StoneArea& area) {
+const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const StoneArea& area, const Part& part) {
   places_.clear();
-  plan_rows(picture, area);
-  if (first_row_ >= static_cast<int>(rows_.size())) return places_;
+  plan_rows(picture, area, part);
+  if (base_row_ >= last_row_) return places_;
   find_granite(picture);
 
   const int columns = picture.bgr.cols / step_px;
-  const int rows = static_cast<int>(rows_.size());
-  scores_.create(rows, columns, CV_32FC1);
-  scores_.setTo(-1.0F);
+  const int rows = last_row_;
+  scores_.create(static_cast<int>(rows_.size()), columns, CV_32FC1);
+  scores_.rowRange(first_row_, last_row_).setTo(-1.0F);
   for (int r = first_row_; r < rows; ++r) {
     const Row& row = rows_[static_cast<std::size_t>(r)];
     if (!row.seen) continue;
@@ -142,7 +153,7 @@ const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const St
       const float here = scores_.at<float>(r, c);
       if (here < least_score) continue;
       bool best = true;
-      for (int y = std::max(0, r - reach_y); best && y <= std::min(rows - 1, r + reach_y); ++y) {
+      for (int y = std::max(first_row_, r - reach_y); best && y <= std::min(rows - 1, r + reach_y); ++y) {
         const float* line = scores_.ptr<float>(y);
         for (int x = std::max(0, c - reach_x); best && x <= std::min(columns - 1, c + reach_x); ++x) {
           const bool before = y < r || (y == r && x < c);

@@ -22,14 +22,19 @@ struct FarPlace {
 /// Keeps its memory from picture to picture.
 class FarScan {
  public:
-  /// By falling score, at most `most_places`. They stay until the next call.
-  const std::vector<FarPlace>& find(const StonePicture& picture, const StoneArea& area);
+  /// By falling score, at most `most_places`. They stay until the next call. Only handles in the rows of `part`, the
+  /// part's number and how many there are, from the farthest down.
+  struct Part {
+    int number = 0;
+    int count = 1;
+  };
+  const std::vector<FarPlace>& find(const StonePicture& picture, const StoneArea& area, const Part& part);
 
   static constexpr std::size_t most_places = 40;
 
  private:
   static constexpr int step_px = 2;
-  static constexpr int margin = 64;  ///< steps about the picture, without granite
+  static constexpr int margin = 64;  ///< steps beside the picture, without granite
 
   /// A stone whose handle's centre is in a row, relative to it, in steps.
   struct Row {
@@ -43,14 +48,17 @@ class FarScan {
     int first = 0;  ///< columns that are of this sheet
     int last = 0;
   };
-  void plan_rows(const StonePicture& picture, const StoneArea& area);
+  static constexpr int planned_together = 4;
+  void plan_rows(const StonePicture& picture, const StoneArea& area, const Part& part);
   Row plan_row(const StonePicture& picture, const StoneArea& area, int y) const;
   void find_granite(const StonePicture& picture);
   float score(const Row& row, int c, int r) const;
   float share(int left, int top, int right, int bottom) const;
 
   std::vector<Row> rows_;
-  int first_row_ = 0;  ///< of those that are looked at
+  int first_row_ = 0;  ///< of those in which handles are looked for
+  int last_row_ = 0;   ///< and the one after them
+  int base_row_ = 0;   ///< the first row of `granite_`
   cv::Mat granite_;
   cv::Mat sums_;
   cv::Mat scores_;

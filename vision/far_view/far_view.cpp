@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/far_view/far_verdict.hpp"
 #include "vision/far_view/far_view_impl.hpp"
 
 namespace hogline::vision {
@@ -17,13 +18,22 @@ constexpr double drift_px = 2.5;
 constexpr double far_hiding_m =
     3.0;  // a stone hides what stands behind it for so far: 0.2 m of it, seen from 2 m at 30 m
 
-ScreeningOptions far_screening() {
+constexpr double grip_top_m = 0.20;  // over the ice
+constexpr int rows_above = 24;       // of the picture, for what is looked at about a stone
+
+}  // namespace
+
+ScreeningOptions careful_screening() {
   ScreeningOptions options;
   options.hiding_m = far_hiding_m;
   return options;
 }
 
-}  // namespace
+ScreeningOptions quick_screening() {
+  ScreeningOptions options = careful_screening();
+  options.all = {.iterations = 3, .pixels = 160};
+  return options;
+}
 
 std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics) {
   if (image.empty()) return "the picture is empty";
@@ -70,12 +80,17 @@ void report_aim(const FarAim& aim, FarPercept& seen) {
   seen.features = aim.features;
 }
 
-FarView::Impl::Impl(const FarSetup& given)
+int first_row(const FarArea& area, const SheetCamera& camera) {
+  const auto farthest = camera.project({0.0, area.whole().max_y_m, grip_top_m});
+  return farthest ? std::max(0, static_cast<int>(farthest->y()) - rows_above) : 0;
+}
+
+FarView::Impl::Impl(const FarSetup& given, const ScreeningOptions& options)
     : setup(given),
       response(given.camera.gamma),
       sheet(given.camera),
       levels(given.camera.intrinsics),
-      screening(far_screening()) {}
+      screening(options) {}
 
 FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
   FarPercept seen;
@@ -91,24 +106,40 @@ FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan&
   }
   report_aim(aim, seen);
 
-  levels.begin(image, response);
-  levels.look_from(aim.eMc, setup.camera.ice);
-  const FarArea area(aim, plan.sheet_width_m, setup.camera.sheet.width_m);
-  const auto& places = scan.find(levels.middle().picture(response, setup.shape), area.whole().wider(look_around_m));
+  const FarArea area = area_of(aim, plan);
+  begin(image, aim.eMc, area);
+  const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}}, area);
 
-  find_stones(places, area, seen, sketch);
-  seen.ok = true;
+  report(stones, seen);
+  if (sketch == nullptr) return seen;
+  for (const JudgedStone& s : stones) {
+    const auto pixel = levels[0].camera->project({s.fit.place.x(), s.fit.place.y(), setup.shape.handle_height_m});
+    if (pixel) sketch->candidates.push_back({{pixel->x(), pixel->y()}, s.fit.place.x(), s.fit.place.y(), s.doubt});
+  }
   return seen;
+}
+
+FarArea FarView::Impl::area_of(const FarAim& aim, const FarPlan& plan) const {
+  return {aim, plan.sheet_width_m, setup.camera.sheet.width_m};
+}
+
+void FarView::Impl::begin(const cv::Mat& image, const Pose& eMc, const FarArea& area) {
+  const SheetCamera camera(*levels[0].lens, eMc, setup.camera.ice);
+  levels.begin(image, first_row(area, camera), response, eMc, setup.camera.ice);
+}
+
+const std::vector<FarPlace>& FarView::Impl::scan_part(const FarArea& area, const FarScan::Part& part) {
+  return scan.find(levels.middle().picture(response, setup.shape), area.whole().wider(look_around_m), part);
 }
 
 // Candidates of the places that are to be looked at on this level.
 const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vector<FarPlace>& places,
-                                                       const StoneArea& area) {
+                                                       const FarArea& area) {
   candidates.clear();
   const StonePicture picture = levels[level].picture(response, setup.shape);
+  const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
   groups.centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
   groups.centres.setTo(0);
-  const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
   bool any = false;
   for (const FarPlace& place : places) {
     if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
@@ -116,36 +147,50 @@ const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vec
     any = true;
   }
   if (!any) return candidates;
-  candidates = voter.find(picture, groups, {.area = area});
+  candidates = voter.find(picture, groups, {.area = area.whole().wider(look_around_m)});
   for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, picture.camera);
   return candidates;
 }
 
 // Level by level, near stones first: they may hide those behind.
-void FarView::Impl::find_stones(const std::vector<FarPlace>& places, const FarArea& area, FarPercept& seen,
-                                FarSketch* sketch) {
+std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, const FarArea& area) {
+  std::vector<JudgedStone> all;
   std::vector<NearerStone> nearer;
+  const Eigen::Vector2d eye = levels[0].camera->eMc().translation().head<2>();
   for (int level = FarLevels::count - 1; level >= 0; --level) {
     const StonePicture picture = levels[level].picture(response, setup.shape);
-    std::vector<JudgedStone> stones =
-        screening.judge(picture, vote(level, places, area.whole().wider(look_around_m)), nearer);
+    std::vector<JudgedStone> stones = screening.judge(picture, vote(level, search.places, area), nearer);
+    for (const JudgedStone& s : search.stones) {
+      const double range_m = (s.fit.place - eye).norm();
+      if (FarLevels::level_at(range_m, setup.camera.intrinsics) == level) stones.push_back(s);
+    }
+    if (stones.empty()) continue;
     screening.refine(picture, stones, nearer);
 
+    std::vector<NearerStone> standing = nearer;
+    for (const JudgedStone& s : stones) {
+      if (s.doubt.empty()) standing.push_back({s.fit.place, s.fit.handle});
+    }
     for (JudgedStone& s : stones) {
+      if (s.doubt.empty()) s.doubt = doubt_of_surroundings(picture, s, standing);
       if (s.doubt.empty()) nearer.push_back({s.fit.place, s.fit.handle});
       if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-      if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
-      if (sketch != nullptr) {
-        const Eigen::Vector2d pixel = levels[level].scale * s.candidate.pixel;
-        sketch->candidates.push_back({{pixel.x(), pixel.y()}, s.fit.place.x(), s.fit.place.y(), s.doubt});
-      }
     }
-    seen.candidates += static_cast<int>(stones.size());
+    all.insert(all.end(), stones.begin(), stones.end());
   }
-  seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
+  return all;
 }
 
-FarView::FarView(const FarSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
+void FarView::Impl::report(const std::vector<JudgedStone>& stones, FarPercept& seen) const {
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
+  }
+  seen.candidates = static_cast<int>(stones.size());
+  seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
+  seen.ok = true;
+}
+
+FarView::FarView(const FarSetup& setup) : impl_(std::make_unique<Impl>(setup, careful_screening())) {}
 FarView::~FarView() = default;
 FarView::FarView(FarView&&) noexcept = default;
 FarView& FarView::operator=(FarView&&) noexcept = default;

@@ -32,11 +32,27 @@ double drift_m(const Eigen::Vector2d& place, const SheetCamera& camera);
 /// What the sheet's lines told.
 void report_aim(const FarAim& aim, FarPercept& seen);
 
+/// Where in the picture something is to be asked whether it is a stone.
+struct FarSearch {
+  std::vector<FarPlace> places;     ///< by votes, in pixels of the middle level
+  std::vector<JudgedStone> stones;  ///< where they must be, but for a fit
+};
+
+/// The farthest row in which a stone of the area can be seen, with its grip.
+int first_row(const FarArea& area, const SheetCamera& camera);
+
+/// What single looks and sequences do alike.
 struct FarView::Impl {
-  explicit Impl(const FarSetup& given);
+  Impl(const FarSetup& given, const ScreeningOptions& options);
   FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch);
-  const std::vector<StoneCandidate>& vote(int level, const std::vector<FarPlace>& places, const StoneArea& area);
-  void find_stones(const std::vector<FarPlace>& places, const FarArea& area, FarPercept& seen, FarSketch* sketch);
+
+  FarArea area_of(const FarAim& aim, const FarPlan& plan) const;
+  void begin(const cv::Mat& image, const Pose& eMc, const FarArea& area);
+  const std::vector<FarPlace>& scan_part(const FarArea& area, const FarScan::Part& part);
+  const std::vector<StoneCandidate>& vote(int level, const std::vector<FarPlace>& places, const FarArea& area);
+  /// All that were asked, whether stones or not.
+  std::vector<JudgedStone> find_stones(const FarSearch& search, const FarArea& area);
+  void report(const std::vector<JudgedStone>& stones, FarPercept& seen) const;
 
   FarSetup setup;
   ResponseCurve response;
@@ -48,5 +64,9 @@ struct FarView::Impl {
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
 };
+
+/// For single looks, and for stones that were seen a moment ago.
+ScreeningOptions careful_screening();
+ScreeningOptions quick_screening();
 
 }  // namespace hogline::vision

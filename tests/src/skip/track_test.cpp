@@ -71,7 +71,7 @@ class FarOnly final : public SkipSeer {
 TEST(Track, follows_a_throw_that_only_the_far_camera_recorded) {
   const Folder folder;
   std::string frames = stamps_head;
-  for (int i = 0; i < 300; ++i)
+  for (int i = 0; i < 340; ++i)
     frames += "f" + std::to_string(i) + ".jpg," + std::to_string(i) + "," + std::to_string(7.0 + 0.05 * i) + "\n";
   folder.write("far.csv", frames);
   folder.write("head.csv", std::string(angles_head) + "7.0,0,-10\n25.0,1,-8\n");
