@@ -64,7 +64,7 @@ struct SkipVision::Impl {
   std::optional<servo::HeadAngles> near_at;
   vision::SheetFit fit;
   std::map<int, vision::StoneFinder> finders;  ///< by the head's tilt, in steps
-  vision::FarView far;
+  vision::FarSequence far;
 };
 
 SkipVision::SkipVision(const config::SkipRig& rig) : impl_(std::make_unique<Impl>(rig)) {}
@@ -147,7 +147,9 @@ FarPercept SkipVision::far_view(const hw::Frame& frame, const servo::HeadAngles&
   plan.pan_sigma_rad = std::hypot(impl_->rig.far_mount_sigma_rad, known.body_sigma.yaw_rad);
   plan.tilt_sigma_rad = plan.roll_sigma_rad = impl_->rig.far_mount_sigma_rad;
   plan.sheet_width_m = known.sheet_width_m;
-  return impl_->far.look(frame.bgr, frame.stamp, plan);
+  std::vector<FarExpectation> expected;
+  for (const StoneSighting& s : known.expected) expected.push_back({s.x_m, s.y_m, s.covariance});
+  return impl_->far.look(frame.bgr, frame.stamp, plan, expected);
 }
 
 }  // namespace hogline

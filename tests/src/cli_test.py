@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
+import importlib.util
 import json
 import os
 import shutil
@@ -268,6 +269,60 @@ class Stones(unittest.TestCase):
                 f.write(text)
             line = json.loads(run("stones", "--rig", rig, self.SKIP).stdout)
         self.assertEqual({s["team"] for s in line["stones"]}, {"scarlet", "yellow"})
+
+
+class Far(unittest.TestCase):
+    NAME = os.path.join(SOURCE, "tests/data/far/far-14-001")
+
+    def setUp(self):
+        with open(self.NAME + ".json", encoding="utf-8") as f:
+            self.truth = json.load(f)
+        spec = importlib.util.spec_from_file_location("score", os.path.join(SOURCE, "tests/score.py"))
+        self.score = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(self.score)
+        self.folder = tempfile.TemporaryDirectory()
+        self.rig = os.path.join(self.folder.name, "rig.yaml")
+        with open(self.rig, "w", encoding="utf-8") as f:
+            f.write(self.score.rig(self.truth))
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def far(self, *words):
+        return run("stones", "--rig", self.rig, "--camera", "far", *words, self.NAME + ".jpg")
+
+    def test_the_moving_stone_and_the_heads_correction(self):
+        result = self.far(*self.score.at(self.truth))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        line = json.loads(result.stdout)
+        self.assertEqual(list(line), ["image", "ok", "stones", "correction", "features", "elapsed_ms", "reason"])
+        [stone] = line["stones"]
+        self.assertAlmostEqual(stone["x_m"], self.truth["stones"][0]["x_end"], delta=0.01)
+        self.assertAlmostEqual(stone["y_m"], self.truth["stones"][0]["y_end"], delta=0.06)
+        self.assertEqual(stone["team"], self.truth["stones"][0]["team"])
+        self.assertAlmostEqual(line["correction"]["tilt_deg"], -0.094, delta=0.01)
+        self.assertIn("far_hog_line", line["features"])
+
+    def test_wrong_use_is_told_in_plain_words(self):
+        for words, told in (((), "--at"), (("--at=1,2",), "three numbers"), (("--at=1,2,3,4",), "three numbers"),
+                            (("--at=1,b,3",), "'b' is no number"), (("--at=1,,3",), "no number"),
+                            (("--at=nan,0,0",), "no number"), (("--at=0,500,0",), "100 m"), (("--at=0,0,1e3",), "360"),
+                            (("--at=0,-3,0", "--sequence"), "near camera")):
+            result = self.far(*words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn(told, result.stderr, words)
+            self.assertEqual(result.stdout, "")
+        result = run("stones", "--rig", RIG, "--at=0,-3,0", SCENE)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("far camera", result.stderr)
+
+    def test_a_wrong_place_is_refused_with_the_reason(self):
+        result = self.far("--at=3,-3.3,0")
+        self.assertEqual(result.returncode, 1)
+        line = json.loads(result.stdout)
+        self.assertFalse(line["ok"])
+        self.assertEqual((line["stones"], line["correction"]), ([], None))
+        self.assertIn("how the camera looks", line["reason"])
 
 
 class Draw(unittest.TestCase):
