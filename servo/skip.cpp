@@ -29,22 +29,6 @@ ViewGeometry view_of(const HeadGeometry& head, const PlanarPose& body, double ti
   return {body.x_m - s * at.x() - c * at.y(), body.y_m + c * at.x() - s * at.y(), at.z(), tilt_sigma_rad};
 }
 
-/// A far look's covariance with what the picture's correction leaves open: it is measured anew in each picture.
-PlaceCovariance with_the_camera(const FarPercept& far, const StoneSighting& stone) {
-  const Eigen::Vector3d eye(far.eMc[3], far.eMc[7], far.eMc[11]);
-  const Eigen::Vector2d ray = Eigen::Vector2d(stone.x_m, stone.y_m) - eye.head<2>();
-  const double range = std::max(1.0, ray.norm()), height = std::max(0.1, eye.z());
-  const Eigen::Vector2d along = ray / range, across(-along.y(), along.x());
-  const double reach = range * range / height;
-  const double far_m = std::hypot(reach * far.correction.tilt_sigma_rad, range / height * far.camera_sigma_m[2]);
-  const double aside_m = range * far.correction.pan_sigma_rad;
-  Eigen::Matrix2d all = far_m * far_m * along * along.transpose() + aside_m * aside_m * across * across.transpose();
-  all(0, 0) += far.camera_sigma_m[0] * far.camera_sigma_m[0];
-  all(1, 1) += far.camera_sigma_m[1] * far.camera_sigma_m[1];
-  const PlaceCovariance& own = stone.covariance;
-  return {own.xx_m2 + all(0, 0), own.xy_m2 + all(0, 1), own.yy_m2 + all(1, 1)};
-}
-
 double gate_of(const WorldStone& stone) {
   const MotionCovariance& c = stone.motion.covariance;
   return steering_gate_m + steering_sigmas * std::sqrt(c(0, 0) + c(1, 1));
@@ -365,7 +349,7 @@ void Skip::Impl::take_far(const FarPercept& far) {
   for (const StoneSighting& s : far.stones) {
     if (s.y_m < config.hand_over_y_m - config.hand_over_overlap_m) continue;
     taken.stones.push_back(s);
-    taken.stones.back().covariance = with_the_camera(far, s);
+    taken.stones.back().covariance = whole_covariance(far, s);
   }
   watch->look(taken, View::far);
   steer(far);
