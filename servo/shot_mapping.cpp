@@ -12,6 +12,7 @@ namespace hogline::servo {
 namespace {
 
 constexpr double fastest_mps = 10.0;
+constexpr double quarter_turn_radps = 0.5 * std::numbers::pi;  // of every stone of Digital Curling
 constexpr double slowest_leaving_mps = 0.1;  // a release for exactly 0 at the line would be one that rests on it
 constexpr double same_place_m = 5e-3;
 constexpr double same_exit_m = 0.5;  // along a sideline that it nears at a few degrees
@@ -98,8 +99,20 @@ void check(MappedShot& mapped, const Surroundings& around, const ThrowerSkill& s
 }  // namespace
 
 IntendedOutcome intended_outcome(const HackShot& shot, const Surroundings& around) {
-  const double spin = 0.5 * std::numbers::pi * (shot.curl == Curl::counter_clockwise ? 1.0 : -1.0);
+  const double spin = shot.curl == Curl::counter_clockwise ? quarter_turn_radps : -quarter_turn_radps;
   return outcome_of(StonePath({0.0, 0.0, shot.vx_mps, shot.vy_mps, spin}, IceFactors{}), around);
+}
+
+std::optional<HackShot> hack_shot_for(const IntendedOutcome& outcome, Curl curl) {
+  const IceModel fcv1({}, IceEstimate{1.0, 1.0, 0.0, {1e-6, 0, 0, 0, 1e-6, 0, 0, 0, 1e-12}, 1});
+  const ThrowerSkill hack{.release = {0.0, 0.0}, .max_speed_mps = fastest_mps, .spin_radps = quarter_turn_radps};
+  const auto shot = [&](const auto& aim) -> std::optional<HackShot> {
+    if (!aim.ok) return std::nullopt;
+    const SlidingStone stone = released(aim.order, hack.release);
+    return HackShot{stone.vx_mps, stone.vy_mps, curl};
+  };
+  if (outcome.intent == Intent::rest) return shot(aim_shot({outcome.place, curl, {}}, hack, fcv1));
+  return shot(aim_hit({outcome.place, outcome.speed_mps, curl, {}}, hack, fcv1));
 }
 
 MappedShot map_shot(const HackShot& shot, const Surroundings& around, const ThrowerSkill& skill, const IceModel& ice) {

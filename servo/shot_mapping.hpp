@@ -39,6 +39,10 @@ struct Surroundings {
 /// By FCV1. Preconditions: finite, vy_mps > 0.
 IntendedOutcome intended_outcome(const HackShot& shot, const Surroundings& around);
 
+/// The shot of Digital Curling that comes to that by FCV1 where no stone is in its way; nothing when there is none.
+/// The contact's heading is what follows.
+std::optional<HackShot> hack_shot_for(const IntendedOutcome& outcome, Curl curl);
+
 struct MappedShot {
   bool ok = false;
   std::string reason;        ///< why not, when !ok

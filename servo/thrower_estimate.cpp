@@ -34,11 +34,11 @@ void ThrowerEstimate::update(const ThrowerObservation& observation, const Estima
   if (use.low_view && observation.low_view) take_low_view(*observation.low_view);
 }
 
-void ThrowerEstimate::start_heading(Stamp now, const Place& place) {
+void ThrowerEstimate::start_heading(Stamp now, const StandingPlace& place) {
   heading_.start(now, place.body.yaw_rad, place.sigma.yaw_rad);
 }
 
-void ThrowerEstimate::start_line(Stamp now, const Place& place, double heading_rad) {
+void ThrowerEstimate::start_line(Stamp now, const StandingPlace& place, double heading_rad) {
   const ShotLine line{place.body.x_m, place.body.y_m, heading_rad};
   lateral_.emplace(line, config_.odometry, place.sigma.x_m);
   hog_distance_.emplace(config_.odometry, now, place.hog_distance_m, place.hog_distance_sigma_m);

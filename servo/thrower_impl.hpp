@@ -41,7 +41,7 @@ struct Thrower::Impl {
   ThrowerCommand fold(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> run_does_not_fit(double hog_distance_m) const;
   SheetPosePercept near_view(const ThrowerObservation& observation) const;  // its known bias taken off
-  void begin_line(Stamp now, const Place& here);
+  void begin_line(Stamp now, const StandingPlace& here);
   double turn_to_heading(Stamp now, Duration dt, bool& settled);
 
   // thrower_running.cpp: the run and after
@@ -72,7 +72,7 @@ struct Thrower::Impl {
 
   JawRehearsal rehearsal;                 // rehearse
   PlaceAverage place;                     // measure, align
-  std::optional<Place> measured;          // measure: where the body stood before the turn
+  std::optional<StandingPlace> measured;  // measure: where the body stood before the turn
   std::optional<YawAlignment> alignment;  // align, fold
   Stamp moved{};                          // align: the last moment a turn was ordered
   std::optional<SpeedProfile> profile;    // run

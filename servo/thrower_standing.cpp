@@ -55,7 +55,7 @@ ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {
   const bool rested = estimate.resting_s() >= seconds(config.measure.rest);
   if (!o.wheels->enabled || !rested || place.size() < config.measure.frames) return command;
 
-  const Place here = *place.average();
+  const StandingPlace here = *place.average();
   abort.set(run_does_not_fit(here.hog_distance_m));
   measured = here;
   estimate.start_heading(o.now, here);
@@ -74,8 +74,8 @@ double Thrower::Impl::turn_to_heading(Stamp now, Duration dt, bool& settled) {
   return turn.ok ? turn.yaw_rate_radps : 0.0;
 }
 
-// Place and heading are looked at anew once the body stands: it may have shifted in the turn, and the near view's error
-// differs with the direction it looks in. When the heading is not what the gyro said, the turn goes on.
+// Place and heading are looked at anew once the body stands: it may have shifted in the turn, and the near
+// view's error differs with the direction it looks in. When the heading is not what the gyro said, the turn goes on.
 ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
   bool settled = false;
@@ -92,7 +92,7 @@ ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   }
   if (!settled || place.size() < config.measure.frames) return command;
 
-  const Place here = *place.average();
+  const StandingPlace here = *place.average();
   estimate.start_heading(o.now, here);
   place.clear();
   const double error_rad = std::remainder(here.body.yaw_rad - order.heading_rad, 2.0 * std::numbers::pi);
@@ -106,7 +106,7 @@ SheetPosePercept Thrower::Impl::near_view(const ThrowerObservation& o) const {
   return without_yaw_bias(*o.near_view, config.alignment.near_yaw_bias);
 }
 
-void Thrower::Impl::begin_line(Stamp now, const Place& here) {
+void Thrower::Impl::begin_line(Stamp now, const StandingPlace& here) {
   abort.set(run_does_not_fit(here.hog_distance_m));
   diagnosis.yaw_after_alignment_rad = estimate.heading(now).yaw_rad;
   estimate.start_line(now, here, order.heading_rad);

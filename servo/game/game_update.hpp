@@ -18,7 +18,7 @@ struct StoneChange {
 
 /// How the stones ran, frame by frame.
 struct Trajectory {
-  double seconds_per_frame = 0.0;
+  double seconds_per_frame = 0.1;
   Board start;   ///< with the thrown stone where it set off
   Board finish;  ///< as the rules left them
   std::vector<std::vector<StoneChange>> frames;

@@ -164,6 +164,21 @@ TEST(ShotMapping, OnFcv1sOwnIceTheWayIsTheSameToo) {
   EXPECT_NEAR(mapped.order.heading_rad, std::atan2(-let_go.vx_mps, let_go.vy_mps), 1e-4);
 }
 
+RC_GTEST_PROP(ShotMappingProperty, AnOutcomeHasAShotThatComesToIt, ()) {
+  const bool rest = *rc::gen::arbitrary<bool>();
+  const Curl curl = *rc::gen::element(Curl::clockwise, Curl::counter_clockwise);
+  IntendedOutcome outcome{rest ? Intent::rest : Intent::touch,
+                          {1e-3 * *rc::gen::inRange(-1500, 1500), 1e-3 * *rc::gen::inRange(33000, 40000)}};
+  if (!rest) outcome.speed_mps = 1e-3 * *rc::gen::inRange(300, 2000);
+  const auto shot = hack_shot_for(outcome, curl);
+  RC_ASSERT(shot);
+  const StonePath path(at_the_hack(*shot), {});
+  const SlidingStone there =
+      rest ? path.at(path.rest().after_s).stone : path.at(*path.crossing_s(outcome.place.y_m)).stone;
+  RC_ASSERT(std::hypot(there.x_m - outcome.place.x_m, there.y_m - outcome.place.y_m) < 2e-3);
+  RC_ASSERT(std::abs(speed_mps(there) - outcome.speed_mps) < 1e-3);
+}
+
 struct Impossible {
   const char* name;
   HackShot shot;

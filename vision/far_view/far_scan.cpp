@@ -172,13 +172,15 @@ const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const St
   return places_;
 }
 
-void mark_for_votes(cv::Point2d centre, double half_width_px, StoneGroups& groups) {
+cv::Rect mark_for_votes(cv::Point2d centre, double half_width_px, cv::Mat& centres) {
   const int reach_x = 1 + static_cast<int>(half_width_px / 10.0);
   const int reach_y = 1 + static_cast<int>(half_width_px / 14.0);
   const int x = static_cast<int>(centre.x / 2.0);
   const int y = static_cast<int>(centre.y / 2.0);
-  const cv::Rect box(x - reach_x, y - reach_y, 2 * reach_x + 1, 2 * reach_y + 1);
-  groups.centres(box & cv::Rect({0, 0}, groups.centres.size())).setTo(255);
+  const cv::Rect box =
+      cv::Rect(x - reach_x, y - reach_y, 2 * reach_x + 1, 2 * reach_y + 1) & cv::Rect({0, 0}, centres.size());
+  if (!box.empty()) centres(box).setTo(255);
+  return box;
 }
 
 }  // namespace hogline::vision

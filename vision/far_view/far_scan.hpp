@@ -5,7 +5,6 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_outline.hpp"
 #include "vision/detect/stone_picture.hpp"
 
@@ -65,8 +64,8 @@ class FarScan {
   std::vector<FarPlace> places_;
 };
 
-/// For the votes: the pixels about a place in which the handle's centre is looked for; `centre` and `half_width_px` in
-/// the pixels of the picture voted on.
-void mark_for_votes(cv::Point2d centre, double half_width_px, StoneGroups& groups);
+/// For the votes: marks where a place's handle's centre is looked for, and says where that is. `centre` and
+/// `half_width_px` are in pixels of the picture voted on, `centres` is half its size.
+cv::Rect mark_for_votes(cv::Point2d centre, double half_width_px, cv::Mat& centres);
 
 }  // namespace hogline::vision

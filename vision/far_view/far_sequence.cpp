@@ -45,6 +45,7 @@ struct FarSequence::Impl {
 
   FarView::Impl view;
   bool aimed = false;
+  bool search_all = true;    ///< not only a part of the picture
   FarCorrection correction;  ///< of the last picture
   int part = 0;
   std::vector<Known> known;
@@ -71,6 +72,7 @@ const FarAim& FarSequence::Impl::aim(const PictureLight& light, const FarPlan& p
   }
   const FarAim& found = view.sheet.find(light, plan);
   aimed = found.ok;
+  search_all = true;
   correction = found.correction;
   return found;
 }
@@ -136,7 +138,9 @@ FarSearch FarSequence::Impl::search(const std::vector<Predicted>& predicted, con
       search.places.push_back(place_of(p.place));
     }
   }
-  for (const FarPlace& place : view.scan_part(area, {part, parts})) {
+  const FarScan::Part now = search_all ? FarScan::Part{} : FarScan::Part{part, parts};
+  search_all = false;
+  for (const FarPlace& place : view.scan_part(area, now)) {
     const bool taken = std::any_of(predicted.begin(), predicted.end(), [&](const Predicted& p) {
       const FarPlace other = place_of(p.place);
       return std::abs(other.pixel.x - place.pixel.x) < other.half_width_px &&
@@ -180,7 +184,7 @@ FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarP
                                    const std::vector<FarExpectation>& expected) {
   FarPercept seen;
   seen.stamp = stamp;
-  seen.reason = unusable(image, view.setup.camera.intrinsics);
+  seen.reason = unusable(image, view.setup.camera.intrinsics, plan);
   if (!seen.reason.empty()) return seen;
 
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, view.response};

@@ -17,6 +17,11 @@ constexpr double paint_sigma_m = 0.015;
 constexpr double symmetry_sigma_m = 0.02;  // of the sidelines about the centre line, see SheetFit
 constexpr double vote_spacing_px = 40.0;
 constexpr double vote_blur_px = 4.0;
+// Following from picture to picture.
+constexpr double followed_places = 80.0;
+constexpr double least_spacing_px = 32.0;
+constexpr double follow_search_px = 3.5;
+constexpr double rough_floor_px = 0.8;
 constexpr double shared_error_px = 0.015;  // common to a feature, see SheetFit
 constexpr double across_half_width_m = 2.1;
 
@@ -135,22 +140,36 @@ void FarSheet::find_sidelines(const PictureLight& light) {
   }
 }
 
-// Plans, looks and takes one robust step.
-bool FarSheet::settle(const PictureLight& light, const Round& round) {
+void FarSheet::look(const PictureLight& light, const Round& round) {
   sites_.clear();
   const SheetCamera camera(lens_, state_.eMc, Ice{state_.paint_depth_m, setup_.ice.refractive_index});
   plan_sites(camera, state_, {.spacing_px = round.spacing_px, .half_width_m = across_half_width_m}, sites_);
   found_.clear();
-  for (PlannedSite& site : sites_) {
-    site.floor_px = std::max(site.floor_px, round.floor_px);
+  own_floor_px_.clear();
+  for (const PlannedSite& site : sites_) {
+    own_floor_px_.push_back(site.floor_px);
     found_.push_back(look_closely(light, site, round.search_px, round.half_breadth, profile_));
   }
-  step_closely(sites_, found_, prior(), step_, scratch_);
+}
+
+void FarSheet::solve(double floor_px, const ParameterVector& start) {
+  for (std::size_t i = 0; i < sites_.size(); ++i) sites_[i].floor_px = std::max(own_floor_px_[i], floor_px);
+  step_closely(sites_, found_, prior(), step_, scratch_, start);
+}
+
+bool FarSheet::move() {
   if (!step_.change.allFinite()) return false;
   const FitState next = moved(state_, step_.change);
   if (!is_finite(next.eMc) || !(next.eMc.translation().z() > 0.05)) return false;
   state_ = next;
   return true;
+}
+
+// Plans, looks and takes one robust step.
+bool FarSheet::settle(const PictureLight& light, const Round& round) {
+  look(light, round);
+  solve(round.floor_px, ParameterVector::Zero());
+  return move();
 }
 
 const FarAim& FarSheet::find(const PictureLight& light, const FarPlan& plan) {
@@ -167,13 +186,18 @@ const FarAim& FarSheet::find(const PictureLight& light, const FarPlan& plan) {
   return judge();
 }
 
+// One look, solved twice: roughly, so that no line is taken for somebody else's, then with each place's own error.
 const FarAim& FarSheet::follow(const PictureLight& light, const FarPlan& plan) {
   const FitState before = state_;
   begin(plan);
   state_.sidelines = before.sidelines;
-  for (const Round& round : {Round{48.0, 4.0, 2, 0.8}, Round{40.0, 1.5, 2, 0.0}}) {
-    if (!settle(light, round)) return refuse("the fit ran away");
-  }
+  look(light, {std::max(spacing_px_, least_spacing_px), follow_search_px, 1, 0.0});
+  spacing_px_ = std::max(spacing_px_, least_spacing_px) * static_cast<double>(sites_.size()) / followed_places;
+  solve(rough_floor_px, ParameterVector::Zero());
+  const ParameterVector rough = step_.change;
+  if (!rough.allFinite()) return refuse("the fit ran away");
+  solve(0.0, rough);
+  if (!move()) return refuse("the fit ran away");
   return judge();
 }
 

@@ -56,7 +56,10 @@ class FarSheet {
   void begin(const FarPlan& plan);
   bool vote(const PictureLight& light);
   void find_sidelines(const PictureLight& light);
+  void look(const PictureLight& light, const Round& round);
+  void solve(double floor_px, const ParameterVector& start);
   bool settle(const PictureLight& light, const Round& round);
+  bool move();
   Prior prior() const;
   Eigen::Vector3d turned() const;
   const FarAim& judge();
@@ -73,6 +76,8 @@ class FarSheet {
   std::vector<SiteMeasurement> found_;
   CloseStep step_;
   std::vector<double> scratch_;
+  std::vector<double> own_floor_px_;
+  double spacing_px_ = 0.0;  ///< of the places that follow() looks at
   Profile profile_;
   FarAim aim_;
 };

@@ -18,8 +18,9 @@ constexpr double drift_px = 2.5;
 constexpr double far_hiding_m =
     3.0;  // a stone hides what stands behind it for so far: 0.2 m of it, seen from 2 m at 30 m
 
-constexpr double grip_top_m = 0.20;  // over the ice
-constexpr int rows_above = 24;       // of the picture, for what is looked at about a stone
+constexpr double least_height_m = 0.5;  // of the camera: a stone must be seen from above
+constexpr double grip_top_m = 0.20;     // over the ice
+constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
 
 }  // namespace
 
@@ -31,16 +32,19 @@ ScreeningOptions careful_screening() {
 
 ScreeningOptions quick_screening() {
   ScreeningOptions options = careful_screening();
-  options.all = {.iterations = 3, .pixels = 160};
+  options.all = {.iterations = 2, .pixels = 130};
   return options;
 }
 
-std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics) {
+std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics, const FarPlan& plan) {
   if (image.empty()) return "the picture is empty";
   if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
   if (image.cols != intrinsics.width_px || image.rows != intrinsics.height_px) {
     return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
            std::to_string(intrinsics.width_px) + "x" + std::to_string(intrinsics.height_px);
+  }
+  if (!is_finite(plan.eMc) || !(plan.eMc.translation().z() > least_height_m)) {
+    return "the plan puts the camera nowhere above the ice";
   }
   return {};
 }
@@ -95,7 +99,7 @@ FarView::Impl::Impl(const FarSetup& given, const ScreeningOptions& options)
 FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
   FarPercept seen;
   seen.stamp = stamp;
-  seen.reason = unusable(image, setup.camera.intrinsics);
+  seen.reason = unusable(image, setup.camera.intrinsics, plan);
   if (!seen.reason.empty()) return seen;
 
   const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, response};
@@ -138,16 +142,16 @@ const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vec
   candidates.clear();
   const StonePicture picture = levels[level].picture(response, setup.shape);
   const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
-  groups.centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
-  groups.centres.setTo(0);
-  bool any = false;
+  centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
+  centres.setTo(0);
+  cv::Rect marked;
   for (const FarPlace& place : places) {
     if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
-    mark_for_votes(scale * place.pixel, scale * place.half_width_px, groups);
-    any = true;
+    marked |= mark_for_votes(scale * place.pixel, scale * place.half_width_px, centres);
   }
-  if (!any) return candidates;
-  candidates = voter.find(picture, groups, {.area = area.whole().wider(look_around_m)});
+  if (marked.empty()) return candidates;
+  const StoneGroups rows{{}, centres.rowRange(marked.y, marked.br().y), 2 * marked.y};
+  candidates = voter.find(picture, rows, {.area = area.whole().wider(look_around_m)});
   for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, picture.camera);
   return candidates;
 }

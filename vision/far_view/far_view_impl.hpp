@@ -9,8 +9,8 @@
 
 namespace hogline::vision {
 
-/// Why a picture can not be one of this camera; empty when it can.
-std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics);
+/// Why nothing can be said of a picture with this plan before it is looked at; empty when something can.
+std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics, const FarPlan& plan);
 
 /// Where stones of this sheet can lie, as far as its sidelines are known.
 class FarArea {
@@ -59,7 +59,7 @@ struct FarView::Impl {
   FarSheet sheet;
   FarLevels levels;
   FarScan scan;
-  StoneGroups groups;
+  cv::Mat centres;  ///< where handles' centres may be, half a level's size
   StoneVoter voter;
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
