@@ -13,7 +13,8 @@ def main():
     for folder in sys.argv[1:]:
         name = pathlib.Path(folder).name.replace("without-", "without ").replace("without nothing", "with all")
         summary = json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
-        cells = [f"{summary['measures'][m]['rms']:.3g} ({summary['measures'][m]['largest']:.3g})" for m in measures]
+        cells = [f"{x['rms']:.3g} ({x['largest']:.3g})" if x["count"] else "none"
+                 for x in (summary["measures"][m] for m in measures)]
         print(f"| {name} | " + " | ".join(cells) + f" | {summary['throws']} | {summary['ok']} |")
 
 
