@@ -75,13 +75,12 @@ struct LineVoter::Grid {
   }
 };
 
-// Places along the site's normal that are darker than both sides, over the line's width.
-void LineVoter::look(const PictureLight& light, const PlannedSite& site, double reach_px) {
-  sights_.clear();
+// The picture along the site's normal, a pixel a step, as far as it goes; the first step's distance from the site.
+int LineVoter::cut(const PictureLight& light, const PlannedSite& site, double reach_px) {
+  cut_.clear();
   const double whole_px = reach_px + 0.5 * site.width_px + side_px + 4.0;
   const auto [begin_px, end_px] = in_picture(light.picture, site, whole_px);
   const int first = static_cast<int>(std::ceil(begin_px));
-  cut_.clear();
   constexpr int piece = Profile::max_samples - 2;
   for (int at = first; at <= end_px; at += piece) {
     const Cut cut{site.pixel, site.normal, static_cast<double>(at), std::min(at + piece - 1.0, end_px),
@@ -92,43 +91,55 @@ void LineVoter::look(const PictureLight& light, const PlannedSite& site, double 
       cut_.push_back({profile_.light[0][i], profile_.light[colour ? 1 : 0][i], profile_.light[colour ? 2 : 0][i]});
     }
   }
+  return first;
+}
+
+// Mean change from step to step that is no slope, as a share of the light; edges count little.
+float LineVoter::noise() const {
+  float sum = 0.0F;
+  for (std::size_t i = 1; i + 1 < cut_.size(); ++i) {
+    const float bend = sum_of(cut_[i]) - 0.5F * (sum_of(cut_[i - 1]) + sum_of(cut_[i + 1]));
+    sum += std::min(0.1F, std::abs(bend) / std::max(1e-3F, sum_of(cut_[i])));
+  }
+  return sum / static_cast<float>(cut_.size());
+}
+
+// How much darker than both its sides a line is that begins, sides included, at a step: share of their light.
+float LineVoter::drop(int begin, int width) const {
+  const auto mean = [this](int from, int size, std::size_t k) {
+    float sum = 0.0F;
+    for (int i = from; i < from + size; ++i) sum += cut_[static_cast<std::size_t>(i)][k];
+    return sum / static_cast<float>(size);
+  };
+  float size = 0.0F;
+  float sides = 0.0F;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float before = mean(begin, side_px, k);
+    const float after = mean(begin + side_px + 2 * gap_px + width, side_px, k);
+    size += std::max(0.0F, std::min(before, after) - mean(begin + side_px + gap_px, width, k));
+    sides += 0.5F * (before + after);
+  }
+  return size / std::max(1e-3F, sides);
+}
+
+// Places along the site's normal that are darker than both sides, over the line's width.
+void LineVoter::look(const PictureLight& light, const PlannedSite& site, double reach_px) {
+  sights_.clear();
+  const int first = cut(light, site, reach_px);
   const int count = static_cast<int>(cut_.size());
   const int width = std::max(1, static_cast<int>(std::lround(site.width_px)));
   const int span = width + 2 * (gap_px + side_px);
   if (count < span + 3) return;
 
-  const auto mean = [this](int begin, int size, std::size_t k) {
-    float sum = 0.0F;
-    for (int i = begin; i < begin + size; ++i) sum += cut_[static_cast<std::size_t>(i)][k];
-    return sum / static_cast<float>(size);
-  };
   drop_.assign(static_cast<std::size_t>(count), 0.0F);
-  std::vector<float>& drop = drop_;
-  float noise = 0.0F;
-  for (int i = 1; i + 1 < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    noise += std::min(0.1F, std::abs(sum_of(cut_[at]) - 0.5F * (sum_of(cut_[at - 1]) + sum_of(cut_[at + 1]))) /
-                                std::max(1e-3F, sum_of(cut_[at])));
-  }
-  noise /= static_cast<float>(count);
-  const float least = std::max(least_drop, least_noise * noise / std::sqrt(static_cast<float>(width)));
-  for (int i = 0; i + span < count; ++i) {
-    float size = 0.0F;
-    float sides = 0.0F;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float before = mean(i, side_px, k);
-      const float after = mean(i + span - side_px, side_px, k);
-      const float middle = mean(i + side_px + gap_px, width, k);
-      size += std::max(0.0F, std::min(before, after) - middle);
-      sides += 0.5F * (before + after);
-    }
-    drop[static_cast<std::size_t>(i)] = size / std::max(1e-3F, sides);
-  }
+  for (int i = 0; i + span < count; ++i) drop_[static_cast<std::size_t>(i)] = drop(i, width);
+
+  const float least = std::max(least_drop, least_noise * noise() / std::sqrt(static_cast<float>(width)));
   const double shift = first + 0.5 * (span - 1);
   for (int i = 1; i + 1 < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (!(drop[at] > least && drop[at] > drop[at - 1] && drop[at] >= drop[at + 1])) continue;
-    if (std::abs(i + shift) <= reach_px) sights_.push_back({i + shift, drop[at]});
+    if (!(drop_[at] > least && drop_[at] > drop_[at - 1] && drop_[at] >= drop_[at + 1])) continue;
+    if (std::abs(i + shift) <= reach_px) sights_.push_back({i + shift, drop_[at]});
   }
   std::sort(sights_.begin(), sights_.end(), [](const Sight& a, const Sight& b) { return a.strength > b.strength; });
   if (sights_.size() > most_sights) sights_.resize(most_sights);
@@ -168,6 +179,14 @@ LineVote LineVoter::find(const PictureLight& light, const Pose& eMc, const std::
     }
   }
 
+  choose(grid, range, vote);
+  vote.agreement = features > 0.0 ? vote.agreement / features : 0.0;
+  return vote;
+}
+
+// The pan and tilt that most agree on, with their neighbours; of equals the one nearer to the plan. A site votes once
+// in each row or column, so that three cells of a neighbourhood have its say.
+void LineVoter::choose(const Grid& grid, const LineVoteRange& range, LineVote& vote) const {
   float best = -1.0F;
   for (int r = 1; r < 2 * grid.half_rows; ++r) {
     for (int c = 1; c + 1 < grid.columns(); ++c) {
@@ -175,8 +194,8 @@ LineVote LineVoter::find(const PictureLight& light, const Pose& eMc, const std::
       for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j) sum += votes_[static_cast<std::size_t>((r + i) * grid.columns() + c + j)];
       }
-      const double pan = (c - grid.half_columns) * step_rad;
-      const double tilt = (r - grid.half_rows) * step_rad;
+      const double pan = (c - grid.half_columns) * grid.step_rad;
+      const double tilt = (r - grid.half_rows) * grid.step_rad;
       const double odds = std::pow(pan / range.pan_sigma_rad, 2) + std::pow(tilt / range.tilt_sigma_rad, 2);
       sum -= static_cast<float>(0.02 * odds);
       if (sum <= best) continue;
@@ -185,8 +204,7 @@ LineVote LineVoter::find(const PictureLight& light, const Pose& eMc, const std::
       vote.tilt_rad = tilt;
     }
   }
-  vote.agreement = features > 0.0 ? static_cast<double>(best) / (3.0 * features) : 0.0;
-  return vote;
+  vote.agreement = static_cast<double>(best) / 3.0;
 }
 
 }  // namespace hogline::vision

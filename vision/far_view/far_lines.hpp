@@ -3,6 +3,7 @@
 // all pans and tilts that would put it there.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vision/fit/site_measurement.hpp"
@@ -40,7 +41,11 @@ class LineVoter {
     float strength;
   };
   struct Grid;
+  int cut(const PictureLight& light, const PlannedSite& site, double reach_px);
+  float noise() const;
+  float drop(int begin, int width) const;
   void look(const PictureLight& light, const PlannedSite& site, double reach_px);
+  void choose(const Grid& grid, const LineVoteRange& range, LineVote& vote) const;
 
   Profile profile_;
   std::vector<std::array<float, 3>> cut_;

@@ -217,6 +217,7 @@ FarPercept FarSequence::look(const cv::Mat& image, Stamp stamp, const FarPlan& p
 
 void FarSequence::forget() {
   impl_->aimed = false;
+  impl_->part = 0;
   impl_->known.clear();
 }
 
