@@ -16,7 +16,7 @@ constexpr double least_handle = 0.35;  // share of the plate that has a handle's
 constexpr int most_rounds = 3;         // a stone behind one behind one
 
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
-StoneFitOptions careful_look() { return {.iterations = 4, .fit_shape = false, .pixels = 300}; }
+StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
 
 // A stone stands there already.
 bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
@@ -103,12 +103,16 @@ void StoneScreening::look_again(const StonePicture& picture, std::vector<JudgedS
   for (const JudgedStone& s : stones) {
     if (!s.doubt.empty()) doubted.push_back(s.candidate);
   }
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::size_t before = believed(stones).size();
-    std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones));
+  std::vector<KnownStone> newest = known_of(stones);
+  for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
+    const std::size_t before = stones.size();
+    std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones), newest);
     if (round == 0) candidates.insert(candidates.end(), doubted.begin(), doubted.end());
     glimpse_all(picture, candidates, *granite, stones);
-    if (believed(stones).size() == before) return;
+    newest.clear();
+    for (std::size_t i = before; i < stones.size(); ++i) {
+      if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+    }
   }
 }
 

@@ -28,6 +28,7 @@ constexpr double most_drift_m = 0.16;
 constexpr int fewest_telling = 12;     // pixels that a stone changes
 constexpr int fewest_handle_told = 5;  // of those that are as foretold, on the handle
 constexpr double least_told = 0.75;
+constexpr double least_told_alone = 0.80;  // of a stone in full view 0.91 and more
 constexpr double well_explained_glimpse = 0.90;
 constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.29 m apart
 constexpr double most_pixel_m = 0.08;
@@ -76,6 +77,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
   const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
   if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
+  if (fit.telling > 0 && fit.told < least_told_alone) return "what is seen is not a stone's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
