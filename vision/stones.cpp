@@ -121,8 +121,9 @@ void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedSt
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;
     s.fit = result.stones[next++];
-    s.doubt = s.glimpsed ? doubt_of_glimpse(s.candidate, s.fit, *granite)
-                         : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
+    s.doubt = s.glimpsed && granite
+                  ? doubt_of_glimpse(s.candidate, s.fit, *granite)
+                  : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
   }
 }
 
