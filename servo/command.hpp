@@ -1,6 +1,8 @@
 // What the thrower's controller orders, once a control period. Plain structs; src hands them to hw.
 #pragma once
 
+#include "vision/percepts/stamp.hpp"
+
 namespace hogline::servo {
 
 enum class DriveOrder {
@@ -16,9 +18,18 @@ struct DriveCommand {
   double right_radps = 0.0;
 };
 
+/// In the hack, before anything else is asked of the robot, the jaws may be tried on the standing stone.
+enum class JawTrial {
+  none,
+  open,  ///< set the stone down
+  grip,  ///< take it up again
+};
+
 struct GripperCommand {
-  bool release = false;     ///< false keeps the stone: the default in every doubt
-  double spin_radps = 0.0;  ///< of the held stone, counter-clockwise from above positive
+  bool release = false;             ///< false keeps the stone: the default in every doubt
+  double spin_radps = 0.0;          ///< of the held stone, counter-clockwise from above positive
+  Duration release_in{};            ///< the release's moment within this control period, from its beginning
+  JawTrial trial = JawTrial::none;  ///< besides a release it means nothing
 };
 
 enum class ArmOrder { hold, fold, unfold };

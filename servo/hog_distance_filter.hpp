@@ -1,6 +1,7 @@
 // Distance to the hog line while running: wheel odometry carries it, low views correct it at their own stamps.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "servo/delayed_fusion.hpp"
@@ -15,7 +16,7 @@ struct HogDistanceEstimate {
   double speed_sigma_mps = 0.0;
   double acceleration_mps2 = 0.0;  ///< along e's y, of the last tenth of a second
   double acceleration_sigma_mps2 = 0.0;
-  double scale = 1.0;  ///< true over measured distance
+  double scale = 1.0;  ///< true over measured distance, at this acceleration
   double scale_sigma = 0.0;
 };
 
@@ -26,22 +27,29 @@ struct Crossing {
   double hog_distance_sigma_m = 0.0;  ///< of the body when it crosses
 };
 
-/// Two-state extended Kalman filter (distance, odometry scale). Speed and acceleration are the wheels', smoothed by an
-/// alpha-beta filter (Kalata 1984): an acceleration that changes with 3 m/s3 is 0.15 m/s2 behind. Looks that go on
-/// falling to one side say that the wheels have slipped: the distance is then less sure, and soon found again.
+/// Extended Kalman filter of distance, odometry scale and creep: wheels that pull turn a little faster than they roll,
+/// in proportion to the acceleration, and what the scale seems to be while speeding up is not what it is afterwards.
+/// Speed and acceleration are the wheels', smoothed by an alpha-beta filter (Kalata 1984): an acceleration that changes
+/// with 3 m/s3 is 0.15 m/s2 behind. Looks that go on falling to one side say that the wheels have slipped: the distance
+/// is then less sure, and soon found again. So do looks that are refused one after the other and agree with each other:
+/// what no slip explains stays refused.
 class HogDistanceModel {
  public:
   struct State {
     double hog_distance_m = 0.0;
-    double scale = 1.0;
+    double scale = 1.0;         ///< true over measured distance, of wheels that do not pull
+    double creep_s2pm = 0.0;    ///< by so much less per acceleration
     double odometry_mps = 0.0;  ///< measured, along e's y, in force since the last input
     double speed_mps = 0.0;     ///< the same, smoothed
     double acceleration_mps2 = 0.0;
     bool slipping = false;
-    double surprise = 0.0;  ///< mean of the last looks' normalised innovations
-    double distance_distance = 0.0;
-    double distance_scale = 0.0;
-    double scale_scale = 0.0;
+    double surprise = 0.0;      ///< mean of the last looks' normalised innovations
+    int refused = 0;            ///< looks in a row that were gated and agree with each other,
+    double refused_by_m = 0.0;  ///< the last of them by so much
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of distance, scale and creep
+
+    double pulled_scale() const { return scale - creep_s2pm * acceleration_mps2; }
+    double pulled_scale_variance() const;
   };
   struct Input {
     double odometry_mps = 0.0;
@@ -50,6 +58,8 @@ class HogDistanceModel {
   struct Measurement {
     double hog_distance_m = 0.0;
     double sigma_m = 0.0;
+    double counts_as =
+        1.0;  ///< of how many independent looks, once others have told the same; the gate takes it for one
   };
 
   explicit HogDistanceModel(const OdometryConfig& config) : config_(config) {}
@@ -59,6 +69,7 @@ class HogDistanceModel {
 
  private:
   void propagate(State& state, double travelled_m) const;
+  static bool insisted_on(State& state, double innovation, double sigma_m);
   OdometryConfig config_;
 };
 
@@ -70,8 +81,9 @@ class HogDistanceFilter {
   /// Wheel odometry: measured forward speed and the heading it is run at.
   void odometry(Stamp stamp, double forward_mps, double yaw_rad, bool slipping = false);
 
-  /// A hog distance seen at `stamp`, however late. Precondition: finite, sigma_m > 0.
-  Fusion hog_distance(Stamp stamp, double hog_distance_m, double sigma_m);
+  /// A hog distance seen at `stamp`, however late. `counts_as`: looks that share an error of n looks' length count as
+  /// one n-th of an independent look each, but for the first. Precondition: finite, sigma_m > 0, 0 < counts_as <= 1.
+  Fusion hog_distance(Stamp stamp, double hog_distance_m, double sigma_m, double counts_as = 1.0);
 
   /// Past the last measurement this is dead reckoning, and its sigma says so.
   HogDistanceEstimate at(Stamp stamp) const;

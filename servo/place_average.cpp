@@ -59,7 +59,7 @@ void PlaceAverage::add(const SheetPosePercept& look) {
   looks_.push_back(look);
 }
 
-std::optional<Place> PlaceAverage::average() const {
+std::optional<StandingPlace> PlaceAverage::average() const {
   if (looks_.empty()) return std::nullopt;
   using Look = SheetPosePercept;
   const Average x = robust(
@@ -70,7 +70,7 @@ std::optional<Place> PlaceAverage::average() const {
       looks_, [](const Look& l) { return l.body.yaw_rad; }, [](const Look& l) { return l.sigma.yaw_rad; });
   const Average hog = robust(
       looks_, [](const Look& l) { return l.hog_distance_m; }, [](const Look& l) { return l.hog_distance_sigma_m; });
-  Place place;
+  StandingPlace place;
   place.body = {x.value, y.value, yaw.value};
   place.sigma = {x.sigma, y.sigma, yaw.sigma};
   place.hog_distance_m = hog.value;

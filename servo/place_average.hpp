@@ -10,7 +10,7 @@ namespace hogline::servo {
 
 /// The body's place in e. The sigmas are those of one look, or the looks' spread where that is larger: looks from the
 /// same place share their errors, so many of them are not worth more than one.
-struct Place {
+struct StandingPlace {
   PlanarPose body;
   PlanarSigma sigma;
   double hog_distance_m = 0.0;
@@ -27,7 +27,7 @@ class PlaceAverage {
   void clear() { looks_.clear(); }
   int size() const { return static_cast<int>(looks_.size()); }
   /// Nothing while there are none.
-  std::optional<Place> average() const;
+  std::optional<StandingPlace> average() const;
 
  private:
   std::vector<SheetPosePercept> looks_;

@@ -1,5 +1,6 @@
 #include "servo/release.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -65,9 +66,11 @@ ReleaseDecision decide_release(const ReleaseConfig& release, const RunConfig& ru
   decision.predicted = crossing->stamp;
   decision.place_sigma_m = crossing->hog_distance_sigma_m;
   const double ahead_s = seconds(crossing->stamp - outlook.now) - release.gripper_delay_s;
-  if (ahead_s > seconds(outlook.dt) / 2.0) return decision;
+  if (ahead_s >= seconds(outlook.dt)) return decision;
 
-  const double freed_at_m = filter.at(outlook.now + from_seconds(release.gripper_delay_s)).hog_distance_m;
+  decision.in = from_seconds(std::max(0.0, ahead_s));
+  const Stamp free = outlook.now + decision.in + from_seconds(release.gripper_delay_s);
+  const double freed_at_m = filter.at(free).hog_distance_m;
   const double off_m = std::abs(freed_at_m - release.hog_distance_m);
   const double stone_m = stone_distance_m(freed_at_m, outlook.heading_rad, release);
   const double clear_m = stone_to_hog_line_m + rule_sigmas * decision.place_sigma_m;

@@ -22,6 +22,7 @@ struct ReleaseDecision {
   ReleaseVerdict verdict = ReleaseVerdict::wait;
   std::string reason;
   std::optional<Stamp> predicted;  ///< when the release plane will be crossed
+  Duration in{};                   ///< release: its moment within this period, from its beginning
   double place_sigma_m = 0.0;      ///< of the body's distance at that moment
 };
 
@@ -45,8 +46,8 @@ double stone_distance_m(double hog_distance_m, double heading_rad, const Release
 std::optional<std::string> no_valid_release(const ReleaseConfig& release, const RunConfig& run,
                                             const HogDistanceFilter& filter, const ReleaseOutlook& outlook);
 
-/// The decision of one control period. Nearest period: the order is given when the wanted moment is at most half a
-/// period ahead. `never` when the stone would come free outside the window, or nearer to the line than the rule allows.
+/// The decision of one control period: to release when the wanted moment lies within it, at that moment. `never` when
+/// the stone would come free outside the window, or nearer to the line than the rule allows.
 ReleaseDecision decide_release(const ReleaseConfig& release, const RunConfig& run, const HogDistanceFilter& filter,
                                const ReleaseOutlook& outlook);
 

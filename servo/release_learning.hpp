@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "servo/thrower_config.hpp"
 
@@ -35,6 +36,10 @@ ReleaseKnowledge prior_of(const ReleaseConfig& config);
 /// Kalman update after one throw; between throws jaws wear, and both may drift a little. Feedback that is not finite,
 /// has no positive sigma, or lies further than five sigmas off is refused, and only the drift is added.
 ReleaseLesson learn(const ReleaseKnowledge& knowledge, const ReleaseFeedback& feedback);
+
+/// What trials on the standing stone tell of the delay. `jitter_s`: by which one delay differs from the next. Refused,
+/// and nothing learnt, where one of them is not believable.
+ReleaseLesson learn_rehearsed(const ReleaseKnowledge& knowledge, const std::vector<double>& delays_s, double jitter_s);
 
 /// The configuration with what was learnt in the rig's place.
 ReleaseConfig with_knowledge(ReleaseConfig config, const ReleaseKnowledge& knowledge);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "servo/stone_path.hpp"
 
@@ -12,19 +13,20 @@ namespace {
 
 constexpr double stone_radius_m = 0.145;
 constexpr double close_enough_m = 1e-3;
+constexpr double close_enough_aside_m = 1e-4;  // a thin hit turns a millimetre into many
 constexpr double close_enough_mps = 1e-4;
 constexpr double greatest_heading_rad = 0.3;
 constexpr int most_iterations = 30;
+
+using ByStart = Eigen::Matrix<double, 2, 7>;
 
 struct Release {
   double speed_mps;
   double heading_rad;
 };
 
-SlidingStone released(const Release& r, const ThrowerSkill& skill, Curl curl) {
-  const double spin = curl == Curl::counter_clockwise ? skill.spin_radps : -skill.spin_radps;
-  return {skill.release.x_m, skill.release.y_m, -r.speed_mps * std::sin(r.heading_rad),
-          r.speed_mps * std::cos(r.heading_rad), spin};
+ShotOrder order_of(const Release& r, Curl curl, const ThrowerSkill& skill) {
+  return {r.speed_mps, r.heading_rad, curl, skill.spin_radps};
 }
 
 /// Of vx, vy by speed and heading.
@@ -33,17 +35,36 @@ Eigen::Matrix2d velocity_by_release(const Release& r) {
   return (Eigen::Matrix2d() << -s, -r.speed_mps * c, c, -r.speed_mps * s).finished();
 }
 
-/// Newton's method on where the stone rests; steps are kept within what a release can be.
-std::optional<Release> solve(const ShotWish& wish, const ThrowerSkill& skill, const IceFactors& ice, Curl curl) {
-  const double dx = wish.rest.x_m - skill.release.x_m, dy = wish.rest.y_m - skill.release.y_m;
-  const double way_m = std::hypot(dx, dy);
-  Release r{std::sqrt(2.0 * 0.085 * ice.friction_scale * way_m), std::atan2(-dx, dy)};
+/// What a way still lacks of a wish: two numbers, with their derivatives by the way's start and the ice.
+struct Lack {
+  Eigen::Vector2d miss;
+  bool close = false;
+  ByStart by_start;
+};
+
+/// What both kinds of wish have in common: where they lead to, and with which speed a straight way would get there.
+struct Course {
+  Place to;
+  double first_speed_mps;
+};
+
+/// Newton's method on speed and heading; steps are kept within what a release can be. `lack_of` says nothing of a way
+/// that stops before its end: that step is halved.
+template <class LackOf>
+std::optional<Release> solve(const Course& course, Curl curl, const ThrowerSkill& skill, const IceFactors& ice,
+                             const LackOf& lack_of) {
+  Release r{course.first_speed_mps, std::atan2(skill.release.x_m - course.to.x_m, course.to.y_m - skill.release.y_m)};
+  Release reached = r;
   for (int i = 0; i < most_iterations; ++i) {
-    const Rest rest = rest_of(released(r, skill, curl), ice);
-    const Eigen::Vector2d miss(wish.rest.x_m - rest.x_m, wish.rest.y_m - rest.y_m);
-    if (miss.norm() < close_enough_m) return r;
-    const Eigen::Matrix2d by_release = rest.by_start.middleCols<2>(2) * velocity_by_release(r);
-    const Eigen::Vector2d step = by_release.inverse() * miss;
+    const std::optional<Lack> lack = lack_of(released(order_of(r, curl, skill), skill.release), ice);
+    if (!lack) {
+      r = {0.5 * (r.speed_mps + reached.speed_mps), 0.5 * (r.heading_rad + reached.heading_rad)};
+      continue;
+    }
+    if (lack->close) return r;
+    reached = r;
+    const Eigen::Matrix2d by_release = lack->by_start.middleCols<2>(2) * velocity_by_release(r);
+    const Eigen::Vector2d step = by_release.inverse() * lack->miss;
     if (!step.allFinite()) return std::nullopt;
     r.speed_mps = std::clamp(r.speed_mps + std::clamp(step[0], -0.3, 0.3), 0.1, 6.0);
     r.heading_rad = std::clamp(r.heading_rad + step[1], -greatest_heading_rad, greatest_heading_rad);
@@ -63,8 +84,7 @@ double clearance(const StonePath& path, double until_s, const std::vector<Place>
 }
 
 /// Of two numbers whose derivatives by the start and the ice are these: thrower, ice and its scatter.
-Eigen::Matrix2d spread(const Eigen::Matrix<double, 2, 7>& by_start, const Release& r, const ThrowerSkill& skill,
-                       const IceModel& ice) {
+Eigen::Matrix2d spread(const ByStart& by_start, const Release& r, const ThrowerSkill& skill, const IceModel& ice) {
   const Eigen::Matrix2d by_release = by_start.middleCols<2>(2) * velocity_by_release(r);
   const Eigen::Matrix<double, 2, 3> by_ice = by_start.rightCols<3>();
   const Eigen::Vector2d thrower(std::pow(skill.speed_sigma_mps, 2), std::pow(skill.heading_sigma_rad, 2));
@@ -72,46 +92,38 @@ Eigen::Matrix2d spread(const Eigen::Matrix<double, 2, 7>& by_start, const Releas
          by_ice * ice.throw_covariance() * by_ice.transpose();
 }
 
-ShotAim refused(std::string reason) {
-  ShotAim aim;
+template <class Aim>
+Aim refused(std::string reason) {
+  Aim aim;
   aim.reason = std::move(reason);
   return aim;
 }
 
-ShotAim aim_with(Curl curl, const ShotWish& wish, const ThrowerSkill& skill, const IceModel& ice) {
-  const IceFactors factors = ice.estimate().factors();
-  const auto release = solve(wish, skill, factors, curl);
-  if (!release) return refused("no release brings a stone there");
-  if (release->speed_mps > skill.max_speed_mps) return refused("the thrower is not fast enough");
-  const StonePath path(released(*release, skill, curl), factors);
-  const Rest rest = path.rest();
-  ShotAim aim;
-  aim.ok = true;
-  aim.order = {release->speed_mps, release->heading_rad, curl, skill.spin_radps};
-  aim.rest = {rest.x_m, rest.y_m};
-  const Eigen::Matrix2d c = spread(rest.by_start, *release, skill, ice);
-  aim.covariance = {c(0, 0), c(0, 1), c(1, 1)};
-  aim.clearance_m = clearance(path, rest.after_s, wish.stones);
-  if (aim.clearance_m <= 0.0) aim.ok = false, aim.reason = "the way is not free";
-  return aim;
-}
+/// A wished-for place to rest.
+struct Drawing {
+  using Aim = ShotAim;
+  const ShotWish& wish;
 
-double doubt_m2(const ShotAim& aim) { return aim.covariance.xx_m2 + aim.covariance.yy_m2; }
-
-// More clearance than a hand's breadth is worth nothing: then the surer one.
-bool better(bool ok_a, double gap_a, double doubt_a, bool ok_b, double gap_b, double doubt_b) {
-  const double enough_m = 0.3;
-  if (ok_a != ok_b) return ok_a;
-  const double a = std::min(gap_a, enough_m), b = std::min(gap_b, enough_m);
-  return a != b ? a > b : doubt_a < doubt_b;
-}
-
-std::string impossible(const Place& wish, const ThrowerSkill& skill) {
-  const double sum = wish.x_m + wish.y_m + skill.release.x_m + skill.release.y_m + skill.spin_radps;
-  if (!std::isfinite(sum)) return "the wish is not finite";
-  if (wish.y_m < skill.release.y_m + 1.0) return "the wanted place is not down-ice of the release";
-  return {};
-}
+  Course course(const ThrowerSkill& skill, const IceFactors& ice) const {
+    const double way_m = std::hypot(wish.rest.x_m - skill.release.x_m, wish.rest.y_m - skill.release.y_m);
+    return {wish.rest, std::sqrt(2.0 * 0.085 * ice.friction_scale * way_m)};
+  }
+  std::optional<Lack> lack(const SlidingStone& start, const IceFactors& ice) const {
+    const Rest rest = rest_of(start, ice);
+    const Eigen::Vector2d miss(wish.rest.x_m - rest.x_m, wish.rest.y_m - rest.y_m);
+    return Lack{miss, miss.norm() < close_enough_m, rest.by_start};
+  }
+  /// Fills in what the way leads to; says until when the way must be free.
+  double outcome(const StonePath& path, const Release& r, const ThrowerSkill& skill, const IceModel& ice,
+                 Aim& aim) const {
+    const Rest rest = path.rest();
+    const Eigen::Matrix2d c = spread(rest.by_start, r, skill, ice);
+    aim.rest = {rest.x_m, rest.y_m};
+    aim.covariance = {c(0, 0), c(0, 1), c(1, 1)};
+    return rest.after_s;
+  }
+  static double doubt(const Aim& aim) { return aim.covariance.xx_m2 + aim.covariance.yy_m2; }
+};
 
 /// The stone where its path crosses the contact's y, with derivatives of x there and of the speed there by the seven of
 /// the start: a change at the moment, and one of the moment.
@@ -120,7 +132,7 @@ struct Passage {
   double speed_mps = 0.0;
   double heading_rad = 0.0;
   double after_s = 0.0;
-  Eigen::Matrix<double, 2, 7> by_start = Eigen::Matrix<double, 2, 7>::Zero();
+  ByStart by_start = ByStart::Zero();
 };
 
 std::optional<Passage> passage(const StonePath& path, double y_m) {
@@ -138,73 +150,95 @@ std::optional<Passage> passage(const StonePath& path, double y_m) {
   return p;
 }
 
-/// Newton's method on the place and on the square of the speed at the contact, which is nearly linear in the release. A
-/// step that would stop short of the contact is halved.
-std::optional<Release> solve(const HitWish& wish, const ThrowerSkill& skill, const IceFactors& ice, Curl curl) {
-  const double dx = wish.contact.x_m - skill.release.x_m, dy = wish.contact.y_m - skill.release.y_m;
-  Release r{std::sqrt(wish.speed_mps * wish.speed_mps + 0.25 * ice.friction_scale * dy), std::atan2(-dx, dy)};
-  Release reached = r;
-  for (int i = 0; i < most_iterations; ++i) {
-    const auto p = passage(StonePath(released(r, skill, curl), ice), wish.contact.y_m);
-    if (!p) {
-      r = {0.5 * (r.speed_mps + reached.speed_mps), 0.5 * (r.heading_rad + reached.heading_rad)};
-      continue;
-    }
-    reached = r;
+/// A wished-for place to pass with a speed. Solved on the square of the speed, which is nearly linear in the release.
+struct Hitting {
+  using Aim = HitAim;
+  const HitWish& wish;
+
+  Course course(const ThrowerSkill& skill, const IceFactors& ice) const {
+    const double dy = wish.contact.y_m - skill.release.y_m;
+    return {wish.contact, std::sqrt(wish.speed_mps * wish.speed_mps + 0.25 * ice.friction_scale * dy)};
+  }
+  std::optional<Lack> lack(const SlidingStone& start, const IceFactors& ice) const {
+    const auto p = passage(StonePath(start, ice), wish.contact.y_m);
+    if (!p) return std::nullopt;
     const double square = wish.speed_mps * wish.speed_mps - p->speed_mps * p->speed_mps;
     const Eigen::Vector2d miss(wish.contact.x_m - p->x_m, square / (2.0 * p->speed_mps));
-    if (std::abs(miss[0]) < close_enough_m && std::abs(miss[1]) < close_enough_mps) return r;
-    const Eigen::Matrix2d by_release = p->by_start.middleCols<2>(2) * velocity_by_release(r);
-    const Eigen::Vector2d step = by_release.inverse() * miss;
-    if (!step.allFinite()) return std::nullopt;
-    r.speed_mps = std::clamp(r.speed_mps + std::clamp(step[0], -0.3, 0.3), 0.1, 6.0);
-    r.heading_rad = std::clamp(r.heading_rad + step[1], -greatest_heading_rad, greatest_heading_rad);
+    return Lack{miss, std::abs(miss[0]) < close_enough_aside_m && std::abs(miss[1]) < close_enough_mps, p->by_start};
   }
-  return std::nullopt;
-}
+  double outcome(const StonePath& path, const Release& r, const ThrowerSkill& skill, const IceModel& ice,
+                 Aim& aim) const {
+    const Passage p = *passage(path, wish.contact.y_m);
+    const Eigen::Matrix2d c = spread(p.by_start, r, skill, ice);
+    aim.speed_mps = p.speed_mps;
+    aim.heading_rad = p.heading_rad;
+    aim.aside_sigma_m = std::sqrt(c(0, 0));
+    aim.speed_sigma_mps = std::sqrt(c(1, 1));
+    return p.after_s;
+  }
+  static double doubt(const Aim& aim) { return aim.aside_sigma_m; }
+};
 
-HitAim no_hit(std::string reason) {
-  HitAim aim;
-  aim.reason = std::move(reason);
-  return aim;
-}
-
-HitAim hit_with(Curl curl, const HitWish& wish, const ThrowerSkill& skill, const IceModel& ice) {
+template <class Kind>
+typename Kind::Aim aim_with(Curl curl, const Kind& kind, const ThrowerSkill& skill, const IceModel& ice) {
+  using Aim = typename Kind::Aim;
   const IceFactors factors = ice.estimate().factors();
-  const auto release = solve(wish, skill, factors, curl);
-  if (!release) return no_hit("no release brings a stone there");
-  if (release->speed_mps > skill.max_speed_mps) return no_hit("the thrower is not fast enough");
-  const StonePath path(released(*release, skill, curl), factors);
-  const Passage p = *passage(path, wish.contact.y_m);
-  const Eigen::Matrix2d c = spread(p.by_start, *release, skill, ice);
-  HitAim aim{true, {}, {}, p.speed_mps, p.heading_rad, std::sqrt(c(0, 0)), std::sqrt(c(1, 1)), 0.0};
-  aim.order = {release->speed_mps, release->heading_rad, curl, skill.spin_radps};
-  aim.clearance_m = clearance(path, p.after_s, wish.stones);
-  if (aim.clearance_m <= 0.0) aim.ok = false, aim.reason = "the way is not free";
+  const auto lack_of = [&](const SlidingStone& start, const IceFactors& on) { return kind.lack(start, on); };
+  const auto release = solve(kind.course(skill, factors), curl, skill, factors, lack_of);
+  if (!release) return refused<Aim>("no release brings a stone there");
+  if (release->speed_mps > skill.max_speed_mps) return refused<Aim>("the thrower is not fast enough");
+  Aim aim;
+  aim.order = order_of(*release, curl, skill);
+  const StonePath path(released(aim.order, skill.release), factors);
+  const double until_s = kind.outcome(path, *release, skill, ice, aim);
+  aim.clearance_m = clearance(path, until_s, kind.wish.stones);
+  aim.ok = aim.clearance_m > 0.0;
+  if (!aim.ok) aim.reason = "the way is not free";
   return aim;
+}
+
+// More clearance than a hand's breadth is worth nothing: then the surer one.
+template <class Kind>
+bool better(const typename Kind::Aim& a, const typename Kind::Aim& b) {
+  const double enough_m = 0.3;
+  if (a.ok != b.ok) return a.ok;
+  const double gap_a = std::min(a.clearance_m, enough_m), gap_b = std::min(b.clearance_m, enough_m);
+  return gap_a != gap_b ? gap_a > gap_b : Kind::doubt(a) < Kind::doubt(b);
+}
+
+template <class Kind>
+typename Kind::Aim aim(const Kind& kind, const ThrowerSkill& skill, const IceModel& ice) {
+  if (kind.wish.curl) return aim_with(*kind.wish.curl, kind, skill, ice);
+  const auto left = aim_with(Curl::counter_clockwise, kind, skill, ice);
+  const auto right = aim_with(Curl::clockwise, kind, skill, ice);
+  return better<Kind>(right, left) ? right : left;
+}
+
+std::string impossible(const Place& wish, const ThrowerSkill& skill) {
+  const double sum = wish.x_m + wish.y_m + skill.release.x_m + skill.release.y_m + skill.spin_radps;
+  if (!std::isfinite(sum)) return "the wish is not finite";
+  if (wish.y_m < skill.release.y_m + 1.0) return "the wanted place is not down-ice of the release";
+  return {};
 }
 
 }  // namespace
 
+SlidingStone released(const ShotOrder& order, const Place& release) {
+  const double spin = order.curl == Curl::counter_clockwise ? order.spin_radps : -order.spin_radps;
+  return {release.x_m, release.y_m, -order.speed_mps * std::sin(order.heading_rad),
+          order.speed_mps * std::cos(order.heading_rad), spin};
+}
+
 ShotAim aim_shot(const ShotWish& wish, const ThrowerSkill& skill, const IceModel& ice) {
-  if (std::string why = impossible(wish.rest, skill); !why.empty()) return refused(std::move(why));
-  if (wish.curl) return aim_with(*wish.curl, wish, skill, ice);
-  const ShotAim left = aim_with(Curl::counter_clockwise, wish, skill, ice);
-  const ShotAim right = aim_with(Curl::clockwise, wish, skill, ice);
-  const bool rather_right =
-      better(right.ok, right.clearance_m, doubt_m2(right), left.ok, left.clearance_m, doubt_m2(left));
-  return rather_right ? right : left;
+  if (std::string why = impossible(wish.rest, skill); !why.empty()) return refused<ShotAim>(std::move(why));
+  return aim(Drawing{wish}, skill, ice);
 }
 
 HitAim aim_hit(const HitWish& wish, const ThrowerSkill& skill, const IceModel& ice) {
-  if (std::string why = impossible(wish.contact, skill); !why.empty()) return no_hit(std::move(why));
-  if (!(wish.speed_mps > 0.05) || !std::isfinite(wish.speed_mps)) return no_hit("the wanted speed is none of a hit");
-  if (wish.curl) return hit_with(*wish.curl, wish, skill, ice);
-  const HitAim left = hit_with(Curl::counter_clockwise, wish, skill, ice);
-  const HitAim right = hit_with(Curl::clockwise, wish, skill, ice);
-  const bool rather_right =
-      better(right.ok, right.clearance_m, right.aside_sigma_m, left.ok, left.clearance_m, left.aside_sigma_m);
-  return rather_right ? right : left;
+  if (std::string why = impossible(wish.contact, skill); !why.empty()) return refused<HitAim>(std::move(why));
+  if (!(wish.speed_mps > 0.05) || !std::isfinite(wish.speed_mps))
+    return refused<HitAim>("the wanted speed is none of a hit");
+  return aim(Hitting{wish}, skill, ice);
 }
 
 }  // namespace hogline::servo

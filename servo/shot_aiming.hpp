@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "servo/ice_model.hpp"
+#include "servo/place.hpp"
 #include "servo/shot.hpp"
 
 namespace hogline::servo {
-
-struct Place {
-  double x_m = 0.0;
-  double y_m = 0.0;
-};
 
 /// What the thrower can do: where it lets go, how fast it may be, how true it is.
 struct ThrowerSkill {
@@ -62,6 +58,9 @@ struct HitAim {
 
 /// Refused as aim_shot() refuses.
 HitAim aim_hit(const HitWish& wish, const ThrowerSkill& skill, const IceModel& ice);
+
+/// The stone at the moment it is let go as ordered.
+SlidingStone released(const ShotOrder& order, const Place& release);
 
 /// A way that touches a stone before its end is refused ("the way is not free"), one beyond the thrower's speed too.
 ShotAim aim_shot(const ShotWish& wish, const ThrowerSkill& skill, const IceModel& ice);

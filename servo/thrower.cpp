@@ -12,6 +12,8 @@ const char* to_string(ThrowerState state) {
   switch (state) {
     case ThrowerState::unfold:
       return "unfold";
+    case ThrowerState::rehearse:
+      return "rehearse";
     case ThrowerState::measure:
       return "measure";
     case ThrowerState::align:
@@ -31,7 +33,11 @@ const char* to_string(ThrowerState state) {
 }
 
 Thrower::Impl::Impl(const ThrowerConfig& config_in, const ShotOrder& order_in, Stamp start)
-    : config(config_in), order(order_in), agreement(config_in.safety), estimate(config_in, start) {
+    : config(config_in),
+      order(order_in),
+      agreement(config_in.safety),
+      estimate(config_in, start),
+      rehearsal(config_in.release.rehearsals, config_in.release.gripper_jitter_s) {
   history.push_back({state, start});
   abort.set(refusal(config, order));
 }
@@ -61,15 +67,17 @@ std::optional<std::string> Thrower::Impl::judge(const ThrowerObservation& observ
     if (state == ThrowerState::release && !observation.gripper->open) release_ordered = false;
     return std::string("deadline of ") + to_string(state) + " passed" + missing_view(observation);
   }
-  if (state == ThrowerState::unfold || state == ThrowerState::measure) return std::nullopt;
+  if (state == ThrowerState::unfold || state == ThrowerState::rehearse || state == ThrowerState::measure) {
+    return std::nullopt;
+  }
   const double gyro_radps = estimate.heading(observation.now).rate_radps;
   if (auto reason = agreement.judge(gyro_radps, estimate.odometry().yaw_rate_radps, dt)) return *reason + in_state;
   return std::nullopt;
 }
 
-// What a measurement that does not end has waited for.
+// What a measurement, or a rehearsal that does not begin, has waited for.
 std::string Thrower::Impl::missing_view(const ThrowerObservation& o) const {
-  if (state != ThrowerState::measure) return {};
+  if (state != ThrowerState::measure && state != ThrowerState::rehearse) return {};
   if (!o.near_view || o.near_view->stamp < history.back().since) return ": no picture of the near camera";
   return o.near_view->ok ? "" : ": near view: " + o.near_view->reason;
 }
@@ -78,6 +86,8 @@ ThrowerCommand Thrower::Impl::act(const ThrowerObservation& observation, Duratio
   switch (state) {
     case ThrowerState::unfold:
       return unfold(observation);
+    case ThrowerState::rehearse:
+      return rehearse(observation);
     case ThrowerState::measure:
       return measure(observation);
     case ThrowerState::align:
@@ -121,6 +131,8 @@ InputNeeds Thrower::Impl::needs(const ThrowerObservation& o) const {
   switch (state) {
     case ThrowerState::unfold:
       return {.wheels = o.wheels.has_value(), .gripper = o.gripper.has_value(), .arm = o.arm.has_value()};
+    case ThrowerState::rehearse:
+      return {.wheels = true, .gyro = true, .gripper = true, .arm = true, .near_view = near_came};
     case ThrowerState::measure:
       moving.enabled = false;
       moving.near_view = near_came;
@@ -162,6 +174,8 @@ Duration Thrower::Impl::deadline() const {
   switch (state) {
     case ThrowerState::unfold:
       return config.deadlines.unfold;
+    case ThrowerState::rehearse:
+      return config.deadlines.rehearse;
     case ThrowerState::measure:
       return config.deadlines.measure;
     case ThrowerState::align:

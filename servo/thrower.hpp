@@ -1,4 +1,4 @@
-// The thrower's state machine: unfold, measure, align, fold, run, release, brake, stopped.
+// The thrower's state machine: unfold, rehearse, measure, align, fold, run, release, brake, stopped.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace hogline::servo {
 
-enum class ThrowerState { unfold, measure, align, fold, run, release, brake, stopped };
+enum class ThrowerState { unfold, rehearse, measure, align, fold, run, release, brake, stopped };
 
 const char* to_string(ThrowerState state);
 
@@ -36,6 +36,8 @@ struct ThrowerDiagnosis {
   std::optional<double> yaw_after_alignment_rad;
   std::optional<Stamp> predicted_release;  ///< when the stone's release plane will be crossed
   std::optional<Stamp> release_ordered;
+  std::vector<double> rehearsed_delays_s;    ///< the same of each trial in the hack
+  std::optional<double> believed_delay_s;    ///< with which the release was timed
   std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
   std::optional<double> freed_at_speed_mps;  ///< the body's, as believed when the stone was free
 };

@@ -30,7 +30,9 @@ struct ReleaseConfig {
   double stone_x_m = 0.0;        ///< the held stone's centre in b, ahead of the origin
   double gripper_delay_s = 0.0;  ///< from the command to the stone being free
   double gripper_delay_sigma_s = 0.0;
-  double drag_mps = 0.0;  ///< by so much the stone is slower than the body that let it go
+  double gripper_jitter_s = 0.0;  ///< by which one delay differs from the next, one standard deviation
+  int rehearsals = 0;             ///< so often the jaws are tried on the standing stone before the run
+  double drag_mps = 0.0;          ///< by so much the stone is slower than the body that let it go
   double drag_sigma_mps = 0.0;
   double rest_hog_distance_m = 0.0;  ///< where the body's origin shall come to rest; negative: beyond the line
 };
@@ -83,6 +85,7 @@ struct GyroConfig {
 struct OdometryConfig {
   double scale_sigma = 0.0;             ///< of true over measured distance, before it is learnt
   double scale_drift_per_sqrt_m = 0.0;  ///< wear, slip that changes with the acceleration
+  double creep_sigma_s2pm = 0.0;        ///< share of its way that a wheel turns in vain, per acceleration
   double noise_m_per_sqrt_m = 0.0;      ///< random walk of the travelled distance
   double speed_delay_s = 0.0;           ///< the wheels' speeds are those of so long before their stamp
 };
@@ -121,6 +124,7 @@ struct SafetyConfig {
 /// How long a state may last. A state that lasts longer aborts the throw.
 struct Deadlines {
   Duration unfold{};
+  Duration rehearse{};
   Duration measure{};
   Duration align{};
   Duration fold{};

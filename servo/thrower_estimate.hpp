@@ -29,9 +29,9 @@ class ThrowerEstimate {
   void update(const ThrowerObservation& observation, const EstimateUse& use);
 
   /// The heading is known from here on.
-  void start_heading(Stamp now, const Place& place);
+  void start_heading(Stamp now, const StandingPlace& place);
   /// The line is laid through the place, and the run's filters start from it. `now`: the body still stands there.
-  void start_line(Stamp now, const Place& place, double heading_rad);
+  void start_line(Stamp now, const StandingPlace& place, double heading_rad);
 
   HeadingEstimate heading(Stamp now) const { return heading_.at(now); }
   const PlanarTwist& odometry() const { return odometry_; }

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "servo/jaw_rehearsal.hpp"
 #include "servo/line_tracking.hpp"
 #include "servo/place_average.hpp"
 #include "servo/release.hpp"
@@ -34,12 +35,13 @@ struct Thrower::Impl {
 
   // thrower_standing.cpp: the states before the run
   ThrowerCommand unfold(const ThrowerObservation& observation);
+  ThrowerCommand rehearse(const ThrowerObservation& observation);
   ThrowerCommand measure(const ThrowerObservation& observation);
   ThrowerCommand align(const ThrowerObservation& observation, Duration dt);
   ThrowerCommand fold(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> run_does_not_fit(double hog_distance_m) const;
   SheetPosePercept near_view(const ThrowerObservation& observation) const;  // its known bias taken off
-  void begin_line(Stamp now, const Place& here);
+  void begin_line(Stamp now, const StandingPlace& here);
   double turn_to_heading(Stamp now, Duration dt, bool& settled);
 
   // thrower_running.cpp: the run and after
@@ -68,8 +70,9 @@ struct Thrower::Impl {
   ThrowerEstimate estimate;
   std::optional<Stamp> last_now;
 
+  JawRehearsal rehearsal;                 // rehearse
   PlaceAverage place;                     // measure, align
-  std::optional<Place> measured;          // measure: where the body stood before the turn
+  std::optional<StandingPlace> measured;  // measure: where the body stood before the turn
   std::optional<YawAlignment> alignment;  // align, fold
   Stamp moved{};                          // align: the last moment a turn was ordered
   std::optional<SpeedProfile> profile;    // run
@@ -81,6 +84,7 @@ struct Thrower::Impl {
   double driven_scale = 1.0;                // of the odometry, as passed on to the wheels
   std::optional<Stamp> sight_wanted_since;  // run: the hog line must have been in sight since
   bool release_ordered = false;
+  Stamp release_at{};  // its moment, within the period in which it was ordered
   bool released = false;
   Duration at_rest_for{};
   bool at_rest = false;

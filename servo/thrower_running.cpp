@@ -40,8 +40,11 @@ ThrowerCommand Thrower::Impl::run(const ThrowerObservation& o, Duration dt) {
   if (decision.verdict != ReleaseVerdict::release || abort.reason()) return command;
 
   release_ordered = true;
-  diagnosis.release_ordered = o.now;
+  release_at = o.now + decision.in;
+  diagnosis.release_ordered = release_at;
+  diagnosis.believed_delay_s = config.release.gripper_delay_s;
   command.gripper.release = true;
+  command.gripper.release_in = decision.in;
   enter(ThrowerState::release, o.now);
   return command;
 }
@@ -108,7 +111,8 @@ std::optional<std::string> Thrower::Impl::last_chance_missed(const ReleaseOutloo
 
 ThrowerCommand Thrower::Impl::release(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command;
-  command.gripper = {true, spin_radps()};
+  command.gripper.release = true;
+  command.gripper.spin_radps = spin_radps();
   command.drive = drive(run_speed_mps(), o.now, 0.0, dt);
   if (!stone_is_free(o)) return command;
   released = true;
@@ -119,14 +123,15 @@ ThrowerCommand Thrower::Impl::release(const ThrowerObservation& o, Duration dt) 
 // By the jaws' own report of their travel; where it does not come, when no jaws take longer. A body that brakes before
 // that takes the stone's speed with it.
 bool Thrower::Impl::stone_is_free(const ThrowerObservation& o) {
-  const Stamp ordered = history.back().since;
+  const Stamp ordered = release_at;
   if (o.gripper->freed_at && *o.gripper->freed_at >= ordered) {
     diagnosis.measured_delay_s = seconds(*o.gripper->freed_at - ordered);
     diagnosis.freed_at_speed_mps = estimate.hog_distance().at(*o.gripper->freed_at).speed_mps /
                                    std::cos(estimate.heading(*o.gripper->freed_at).yaw_rad);
     return o.gripper->open;
   }
-  const double longest_s = config.release.gripper_delay_s + delay_sigmas * config.release.gripper_delay_sigma_s;
+  const double unsure_s = std::hypot(config.release.gripper_delay_sigma_s, config.release.gripper_jitter_s);
+  const double longest_s = config.release.gripper_delay_s + delay_sigmas * unsure_s;
   return o.gripper->open && o.now - ordered >= from_seconds(longest_s);
 }
 

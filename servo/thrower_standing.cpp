@@ -1,9 +1,10 @@
-// The states before the run: unfold, measure, align, fold.
+// The states before the run: unfold, rehearse, measure, align, fold.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "servo/refusal.hpp"
+#include "servo/release_learning.hpp"
 #include "servo/thrower_impl.hpp"
 
 namespace hogline::servo {
@@ -23,8 +24,28 @@ ThrowerCommand Thrower::Impl::unfold(const ThrowerObservation& o) {
   const bool wheels = o.wheels && (o.wheels->ready || o.wheels->enabled);
   const bool gyro = o.gyro && o.gyro->valid;
   const bool stone = o.gripper && o.gripper->holding && !o.gripper->open;
-  if (up && wheels && gyro && stone) enter(ThrowerState::measure, o.now);
+  if (up && wheels && gyro && stone) {
+    enter(config.release.rehearsals > 0 ? ThrowerState::rehearse : ThrowerState::measure, o.now);
+  }
   return standing(ArmOrder::unfold, CameraOrder::none);  // a folded head sees darkness
+}
+
+// Nothing else moves, and the drives are without power. Where the robot stands must have been seen: the stone is set
+// down in the hack, or not at all.
+ThrowerCommand Thrower::Impl::rehearse(const ThrowerObservation& o) {
+  ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
+  if (!o.near_view || !o.near_view->ok || o.near_view->stamp < history.back().since) return command;
+  const RehearsalStep step = rehearsal.step(*o.gripper, o.now);
+  command.gripper.trial = step.order;
+  if (!step.refused.empty()) abort.set("rehearsal: " + step.refused);
+  if (!step.done) return command;
+
+  const auto lesson = learn_rehearsed(prior_of(config.release), rehearsal.delays_s(), config.release.gripper_jitter_s);
+  if (!lesson.refused.empty()) abort.set("rehearsal: " + lesson.refused);
+  config.release = with_knowledge(config.release, lesson.knowledge);
+  diagnosis.rehearsed_delays_s = rehearsal.delays_s();
+  enter(ThrowerState::measure, o.now);
+  return command;
 }
 
 ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {
@@ -34,7 +55,7 @@ ThrowerCommand Thrower::Impl::measure(const ThrowerObservation& o) {
   const bool rested = estimate.resting_s() >= seconds(config.measure.rest);
   if (!o.wheels->enabled || !rested || place.size() < config.measure.frames) return command;
 
-  const Place here = *place.average();
+  const StandingPlace here = *place.average();
   abort.set(run_does_not_fit(here.hog_distance_m));
   measured = here;
   estimate.start_heading(o.now, here);
@@ -53,8 +74,8 @@ double Thrower::Impl::turn_to_heading(Stamp now, Duration dt, bool& settled) {
   return turn.ok ? turn.yaw_rate_radps : 0.0;
 }
 
-// Place and heading are looked at anew once the body stands: it may have shifted in the turn, and the near view's error
-// differs with the direction it looks in. When the heading is not what the gyro said, the turn goes on.
+// Place and heading are looked at anew once the body stands: it may have shifted in the turn, and the near
+// view's error differs with the direction it looks in. When the heading is not what the gyro said, the turn goes on.
 ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   ThrowerCommand command = standing(ArmOrder::hold, CameraOrder::near);
   bool settled = false;
@@ -71,7 +92,7 @@ ThrowerCommand Thrower::Impl::align(const ThrowerObservation& o, Duration dt) {
   }
   if (!settled || place.size() < config.measure.frames) return command;
 
-  const Place here = *place.average();
+  const StandingPlace here = *place.average();
   estimate.start_heading(o.now, here);
   place.clear();
   const double error_rad = std::remainder(here.body.yaw_rad - order.heading_rad, 2.0 * std::numbers::pi);
@@ -85,7 +106,7 @@ SheetPosePercept Thrower::Impl::near_view(const ThrowerObservation& o) const {
   return without_yaw_bias(*o.near_view, config.alignment.near_yaw_bias);
 }
 
-void Thrower::Impl::begin_line(Stamp now, const Place& here) {
+void Thrower::Impl::begin_line(Stamp now, const StandingPlace& here) {
   abort.set(run_does_not_fit(here.hog_distance_m));
   diagnosis.yaw_after_alignment_rad = estimate.heading(now).yaw_rad;
   estimate.start_line(now, here, order.heading_rad);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "src/campaign/plots.hpp"
+#include "src/campaign/resting_plot.hpp"
 #include "src/campaign/summary.hpp"
 #include "src/campaign/throwing_crew.hpp"
 #include "src/config/config_error.hpp"
@@ -18,6 +19,7 @@
 #include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults/random_faults.hpp"
+#include "src/faults/strike_journal.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -112,10 +114,15 @@ int run_faults_at_random(const CampaignOptions& options) {
                               "must be all, or a part of a fault's name");
   }
   const int count = static_cast<int>(chosen.size()) * options.per_fault;
-  int done = 0;
-  const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, [&] {
+  faults::StrikeJournal journal(options.out + "/strikes.jsonl", chosen, options.seed, this_program());
+  int done = static_cast<int>(journal.known().size());
+  if (done > 0) fmt::print(stderr, "{} throws are in {} already\n", done, options.out);
+  const auto note = [&](const faults::StrikePlace& place, const faults::RandomStrike& strike) {
+    journal.append(place, strike);
     if (++done % 50 == 0 || done == count) fmt::print(stderr, "{} of {} throws with a fault\n", done, count);
-  });
+  };
+  const auto known = journal.known();
+  const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, note, known);
   write(options.out + "/faults.csv", faults::strikes_csv(strikes));
   const std::string page = faults::strikes_page(strikes);
   write(options.out + "/faults.md", page);
@@ -152,7 +159,9 @@ int run_campaign(const CampaignOptions& options) {
   const Summary summary = summarise(folder.rows(), options.tee_draws);
   write(options.out + "/summary.md", markdown(summary));
   write(options.out + "/summary.json", json(summary));
-  DrawingFolder("--out", options.out).save("distributions", distributions(folder.rows()));
+  DrawingFolder drawings("--out", options.out);
+  drawings.save("distributions", distributions(folder.rows()));
+  if (options.tee_draws) drawings.save("resting-places", resting_places(folder.rows()));
   fmt::print("{}", markdown(summary));
   return summary.ok == summary.throws ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -48,6 +48,15 @@ ordered_json stones_json(const std::vector<StoneSighting>& stones, const TeamNam
   return all;
 }
 
+ordered_json correction_json(const FarCorrection& c) {
+  return {{"pan_deg", degrees(c.pan_rad)},
+          {"tilt_deg", degrees(c.tilt_rad)},
+          {"roll_deg", degrees(c.roll_rad)},
+          {"pan_sigma_deg", degrees(c.pan_sigma_rad)},
+          {"tilt_sigma_deg", degrees(c.tilt_sigma_rad)},
+          {"roll_sigma_deg", degrees(c.roll_sigma_rad)}};
+}
+
 void finish(ordered_json& line, const std::string& reason, double elapsed_ms) {
   line["elapsed_ms"] = rounded(elapsed_ms, 1e-3);
   line["reason"] = reason.empty() ? ordered_json(nullptr) : ordered_json(reason);
@@ -92,6 +101,20 @@ std::string stones_line(const std::string& image, const StonesPercept& percept, 
   line["image"] = image;
   line["ok"] = percept.ok;
   line["stones"] = stones_json(percept.stones, names);
+  finish(line, percept.reason, elapsed_ms);
+  return text_of(line);
+}
+
+std::string far_stones_line(const std::string& image, const FarPercept& percept, const TeamNames& names,
+                            double elapsed_ms) {
+  ordered_json line;
+  line["image"] = image;
+  line["ok"] = percept.ok;
+  std::vector<StoneSighting> stones = percept.stones;
+  for (StoneSighting& s : stones) s.covariance = whole_covariance(percept, s);
+  line["stones"] = stones_json(stones, names);
+  line["correction"] = percept.ok ? correction_json(percept.correction) : ordered_json(nullptr);
+  line["features"] = percept.features;
   finish(line, percept.reason, elapsed_ms);
   return text_of(line);
 }

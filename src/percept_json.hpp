@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/percepts/far_look.hpp"
 #include "vision/percepts/sheet_pose.hpp"
 #include "vision/percepts/stones.hpp"
 
@@ -24,6 +25,11 @@ std::string pose_line(const std::string& image, const SheetPosePercept& percept,
 /// The same for the stones of a picture; an empty list where the percept is not ok.
 std::string stones_line(const std::string& image, const StonesPercept& percept, const TeamNames& names,
                         double elapsed_ms);
+
+/// The same for a picture of the far camera, with the correction of the head's angles. A stone's sigma holds what all
+/// stones of the picture share, too.
+std::string far_stones_line(const std::string& image, const FarPercept& percept, const TeamNames& names,
+                            double elapsed_ms);
 
 /// The same for a robot that stands still: its pictures' stones together. `frames` of `pictures` counted.
 std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,

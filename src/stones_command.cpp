@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <optional>
 
+#include "src/config/config_error.hpp"
 #include "src/drawing/board_picture.hpp"
 #include "src/drawing_file.hpp"
 #include "src/exit_status.hpp"
+#include "src/far_looker.hpp"
 #include "src/percept_json.hpp"
 #include "src/picture_reader.hpp"
 #include "src/stones_setup.hpp"
@@ -27,35 +31,89 @@ double ms_since(Clock::time_point begin) {
 /// What one picture shows.
 struct Look {
   StonesPercept stones;
+  std::optional<FarPercept> far;  ///< of the far camera, in the place of `stones`
   vision::Pose eMc = vision::Pose::Identity();
   std::optional<double> sheet_width_m;
+
+  bool ok() const { return far ? far->ok : stones.ok; }
+  const std::vector<StoneSighting>& seen() const { return far ? far->stones : stones.stones; }
 };
 
-class Looker {
- public:
-  explicit Looker(const vision::StonesSetup& setup) : near_view_(setup.camera), finder_(setup) {}
+/// Of a picture that could be read.
+using Looker = std::function<Look(const Picture&)>;
 
-  Look look(const Picture& picture) {
-    Look seen;
-    if (picture.bgr.empty()) {
-      seen.stones.reason = picture.problem;
-      return seen;
-    }
-    const SheetPosePercept sheet = near_view_.acquire(picture.bgr, picture.stamp);
+Looker near_looker(const vision::StonesSetup& setup) {
+  struct Eyes {
+    vision::NearView near_view;
+    vision::StoneFinder finder;
+  };
+  const auto eyes = std::make_shared<Eyes>(vision::NearView(setup.camera), vision::StoneFinder(setup));
+  return [eyes](const Picture& picture) {
+    Look look;
+    const SheetPosePercept sheet = eyes->near_view.acquire(picture.bgr, picture.stamp);
     if (!sheet.ok) {
-      seen.stones.reason = "the sheet's pose: " + sheet.reason;
-      return seen;
+      look.stones.reason = "the sheet's pose: " + sheet.reason;
+      return look;
     }
-    seen.eMc = vision::from_row_major(sheet.eMc);
-    seen.sheet_width_m = sheet.sheet_width_m;
-    seen.stones = finder_.find(picture.bgr, picture.stamp, seen.eMc, seen.sheet_width_m);
-    return seen;
-  }
+    look.eMc = vision::from_row_major(sheet.eMc);
+    look.sheet_width_m = sheet.sheet_width_m;
+    look.stones = eyes->finder.find(picture.bgr, picture.stamp, look.eMc, look.sheet_width_m);
+    return look;
+  };
+}
 
- private:
-  vision::NearView near_view_;
-  vision::StoneFinder finder_;
+Looker far_looker(const vision::FarSetup& setup, const vision::FarPlan& plan) {
+  const auto eyes = std::make_shared<vision::FarView>(setup);
+  return [eyes, plan](const Picture& picture) {
+    Look look;
+    look.far = eyes->look(picture.bgr, picture.stamp, plan);
+    if (look.far->ok) look.eMc = vision::from_row_major(look.far->eMc);
+    return look;
+  };
+}
+
+/// The one that the options ask for, and the camera it looks through.
+struct Eyes {
+  vision::CameraSetup camera;
+  vision::StoneShape shape;
+  Looker look;
 };
+
+Eyes eyes_for(const StonesOptions& options, const config::Rig& rig) {
+  if (options.camera == "far") {
+    if (!options.at) {
+      throw config::ConfigError("command line", 0, "--at", "",
+                                "is missing: the far camera can not tell where the body stands; give its pose from the "
+                                "near view as X_M,Y_M,YAW_DEG");
+    }
+    if (options.sequence) {
+      throw config::ConfigError("command line", 0, "--sequence", "",
+                                "is for the near camera: it averages stones that lie still");
+    }
+    const vision::FarSetup setup = far_setup(rig);
+    return {setup.camera, setup.shape, far_looker(setup, far_plan(setup.camera, parse_at(*options.at)))};
+  }
+  if (options.at) {
+    throw config::ConfigError("command line", 0, "--at", *options.at,
+                              "is for the far camera; the near one measures where the body stands");
+  }
+  const vision::StonesSetup setup = stones_setup(rig);
+  return {setup.camera, setup.shape, near_looker(setup)};
+}
+
+/// A picture that can not be read is one in which nothing can be said.
+Look look_at(const Looker& looker, const Picture& picture, bool far) {
+  if (!picture.bgr.empty()) return looker(picture);
+  Look look;
+  if (far) look.far.emplace();
+  (far ? look.far->reason : look.stones.reason) = picture.problem;
+  return look;
+}
+
+std::string line_of(const std::string& name, const Look& look, const TeamNames& teams, double elapsed_ms) {
+  return look.far ? far_stones_line(name, *look.far, teams, elapsed_ms)
+                  : stones_line(name, look.stones, teams, elapsed_ms);
+}
 
 /// All pictures of one robot that stands still.
 struct Standing {
@@ -68,32 +126,31 @@ struct Standing {
 
 int run_stones(const StonesOptions& options) {
   const config::Rig rig = config::load_rig(options.rig);
-  const vision::StonesSetup setup = stones_setup(rig);
+  const Eyes eyes = eyes_for(options, rig);
   std::optional<DrawingFolder> drawings;
   if (options.draw) drawings.emplace("--draw", *options.draw);
-  const auto& k = setup.camera.intrinsics;
+  const auto& k = eyes.camera.intrinsics;
   const PictureReader next = read_pictures(options.images, {k.width_px, k.height_px}, std::nullopt);
 
-  Looker looker(setup);
   Standing standing;
   bool all_estimated = true;
   const auto start = Clock::now();
   while (const auto picture = next()) {
     const auto begin = Clock::now();
-    const Look look = looker.look(*picture);
+    const Look look = look_at(eyes.look, *picture, options.camera == "far");
     if (!options.sequence) {
-      fmt::print("{}\n", stones_line(picture->name, look.stones, team_names(rig), ms_since(begin)));
+      fmt::print("{}\n", line_of(picture->name, look, team_names(rig), ms_since(begin)));
       std::fflush(stdout);
     }
-    if (drawings && look.stones.ok) {
-      const vision::SheetCamera camera(vision::Lens(k), look.eMc, setup.camera.ice);
-      const vision::Board board = vision::judge(look.stones.stones, look.sheet_width_m);
-      drawings->save(picture->name, drawing::draw_stones(picture->bgr, board, camera, setup.shape));
+    if (drawings && look.ok()) {
+      const vision::SheetCamera camera(vision::Lens(k), look.eMc, eyes.camera.ice);
+      const vision::Board board = vision::judge(look.seen(), look.sheet_width_m);
+      drawings->save(picture->name, drawing::draw_stones(picture->bgr, board, camera, eyes.shape));
     }
     ++standing.pictures;
     standing.average.add(look.stones);
     if (!look.stones.ok) standing.reason = look.stones.reason;
-    all_estimated = all_estimated && look.stones.ok;
+    all_estimated = all_estimated && look.ok();
   }
   if (!options.sequence) return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;
   const int frames = standing.average.frames();

@@ -13,11 +13,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MAY_INCLUDE = {
     "vision": ["vision"],
     "servo": ["servo", "vision/percepts"],
-    "hw": ["hw", "vision"],
+    "hw": ["hw", "vision", "servo/game"],
     "src": ["src", "servo", "hw", "vision"],
 }
 # Adapters know the ports and themselves, not each other; simulated devices know no adapter.
-ADAPTERS = ["socketcan", "canopen", "modbus", "dsp3000", "aravis", "files", "link", "sim"]
+ADAPTERS = ["socketcan", "canopen", "modbus", "dsp3000", "aravis", "digital_curling", "files", "link", "sim"]
 
 # The supervisor knows no controller: only what both sides exchange.
 SUPERVISOR_MAY_INCLUDE = ["servo/safety", "servo/command.hpp", "servo/observation.hpp", "servo/thrower_config.hpp",

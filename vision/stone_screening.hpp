@@ -1,45 +1,50 @@
-// From candidates to stones: first each by itself, then what hides behind others or behind somebody's legs, by what the
-// first ones have shown of the club's stones.
+// From places with votes to stones: each by itself, then what nearer stones may hide, then all together. Near and far
+// view share it.
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "vision/detect/handle_search.hpp"
+#include "vision/detect/stone_picture.hpp"
 #include "vision/detect/stone_team.hpp"
-#include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
 
-/// Something nearer than `place` is among the stones, and may hide parts of it. `eye` on the ice, in e.
-bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye);
+struct ScreeningOptions {
+  StoneFitOptions first{.iterations = 2, .fit_shape = false, .pixels = 120};   ///< of each by itself
+  StoneFitOptions hidden{.iterations = 3, .fit_shape = false, .pixels = 200};  ///< of what may be hidden
+  StoneFitOptions all{};                                                       ///< of all together
+  double hiding_m = 1.2;  ///< a stone farther behind another is seen over it
+};
 
+/// Keeps its memory from picture to picture.
 class StoneScreening {
  public:
-  explicit StoneScreening(const TeamHues& teams) : teams_(teams) {}
+  explicit StoneScreening(const ScreeningOptions& options = {}) : options_(options) {}
 
-  /// Each candidate by itself: what is no stone does not look like one in any light.
-  std::vector<JudgedStone> look(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+  /// Stones of the candidates, in the candidates' order; what is none keeps its doubt. `nearer` are known already, and
+  /// may hide these.
+  std::vector<JudgedStone> judge(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                                 const std::vector<NearerStone>& nearer = {});
 
-  /// Two that came out nearer than two stones can stand are fitted together: both stay if that parts them.
-  void tell_apart(const StonePicture& picture, std::vector<JudgedStone>& stones);
-
-  /// Once the granite is known: what was doubted, and handles that show behind known stones, with the parts that stones
-  /// and legs hide left out. `stones` grows.
-  void look_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
+  /// The fit of all that are without doubt together, with the shape they share; some are doubted after it.
+  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones,
+              const std::vector<NearerStone>& nearer = {});
 
  private:
-  bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
-  void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
-                   std::vector<JudgedStone>& stones);
-  JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,
-                      const std::vector<NearerStone>& known, const Light& granite);
+  std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                                  const std::vector<NearerStone>& nearer);
+  std::vector<NearerStone> look_behind(const StonePicture& picture, const std::vector<NearerStone>& known,
+                                       const std::vector<NearerStone>& newest, std::vector<JudgedStone>& stones);
+  bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others,
+                     const Eigen::Vector2d& eye) const;
 
-  TeamHues teams_;
-  HandleSearch handles_;
+  ScreeningOptions options_;
   StoneFitter fitter_;
 };
+
+/// What the verdict leaves of a stone, as the percept says it.
+StoneSighting sighting_of(const JudgedStone& stone, const TeamHues& teams);
 
 }  // namespace hogline::vision

@@ -22,6 +22,9 @@ constexpr double few_votes = 0.40;
 constexpr double well_explained = 0.90;
 constexpr double most_residual = 0.25;
 constexpr int least_granite_pixels = 8;  // fewer say nothing of a colour
+constexpr double grip_height_m = 0.045;  // of a grip's bar over the handle's rim, about
+constexpr double grip_half_m = 0.06;     // across: half a bar
+constexpr double grip_reach_m = 0.16;    // along: a little height is much range
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
 constexpr double most_drift_m = 0.16;
@@ -110,6 +113,21 @@ std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones) {
     middle[channel] = *at;
   }
   return middle;
+}
+
+void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape) {
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty() || s.fit.granite_pixels >= least_granite_pixels) continue;
+    for (const JudgedStone& other : stones) {
+      if (&other == &s || !other.doubt.empty()) continue;
+      const Bearing bearing = bearing_of(other.fit.place, eye);
+      const double over_m = grip_height_m * bearing.range_m / (eye.z() - shape.handle_height_m - grip_height_m);
+      const Eigen::Vector2d off = s.fit.place - other.fit.place - over_m * bearing.away;
+      const bool over_it =
+          std::abs(off.dot(bearing.right)) < grip_half_m && std::abs(off.dot(bearing.away)) < grip_reach_m;
+      if (over_it) s.doubt = "it may be a nearer stone's grip";
+    }
+  }
 }
 
 // Votes are good to a pixel or two, so that ice and handle mix into what is taken for granite.

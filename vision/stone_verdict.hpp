@@ -38,6 +38,9 @@ bool stand_in_one_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, cons
 /// Of those that stand in one place the better keeps it. Marks the others.
 void part_overlapping(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
+/// What shows no granite and stands where a nearer stone's grip is seen may be that grip: marks it. `eye` in e.
+void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape);
+
 /// All stones of a club are cut from the same rock: marks what differs much from the others' granite.
 void compare_granite(std::vector<JudgedStone>& stones);
 

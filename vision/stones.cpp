@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/crowd_screening.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
-#include "vision/stone_screening.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -38,7 +38,7 @@ struct StoneFinder::Impl {
   ResponseCurve response;
   StoneGroupFinder groups;
   StoneVoter voter;
-  StoneScreening screening;
+  CrowdScreening screening;
   StoneFitter fitter;
 };
 

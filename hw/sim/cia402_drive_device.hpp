@@ -51,6 +51,7 @@ class Cia402DriveDevice final : private CanopenDevice::Application {
   CanopenDevice& communication() { return communication_; }
   const CanopenDevice& communication() const { return communication_; }
   DriveAxis& axis() { return axis_; }
+  const DriveAxis& axis() const { return axis_; }
   bool operation_enabled() const { return state_ == State::operation_enabled; }
   bool quick_stop_active() const { return state_ == State::quick_stop_active; }
   bool in_fault() const { return state_ == State::fault || state_ == State::fault_reaction_active; }

@@ -48,6 +48,10 @@ void JawsDevice::start_activation() {
 }
 
 void JawsDevice::go_to(std::uint8_t position) {
+  if (jammed_) {
+    requested_ = position;
+    return;
+  }
   if (position == requested_ && (in_motion_ || object_ != Object::at_position || position_ == position)) return;
   requested_ = position;
   from_ = position_;
@@ -55,6 +59,7 @@ void JawsDevice::go_to(std::uint8_t position) {
   in_motion_ = true;
   motion_start_ = now_ + from_seconds(scenario_.motion_delay_s);
   rate_per_s_ = closed_position / scenario_.full_stroke_time_s;
+  catches_ = closing() && (stone_ || between_);
   if (closing()) free_at_.reset();
   if (closing() || !stone_) return;
   std::normal_distribution<double> jitter(scenario_.opening_delay_s, scenario_.opening_jitter_s);
@@ -72,29 +77,47 @@ void JawsDevice::step(Stamp now) {
     object_ = Object::at_position;
   }
   if (free_at_ && now_ >= *free_at_) stone_ = false;
+  if (jammed_) {
+    in_motion_ = false;
+    if (stone_) free_at_.reset();
+  }
   if (!in_motion_ || now_ < motion_start_) return;
 
   object_ = Object::moving;
   const double travelled = rate_per_s_ * seconds(now_ - motion_start_);
-  const double stop = closing() && stone_ ? std::min(target_, grip_position) : target_;
+  const double stop = catches_ && closing() ? std::min(target_, grip_position) : target_;
   position_ = closing() ? std::min(from_ + travelled, stop) : std::max(from_ - travelled, stop);
   if (position_ == stop) finish_motion();
 }
 
 void JawsDevice::finish_motion() {
   in_motion_ = false;
+  stone_ = stone_ || (closing() && catches_);
   object_ = closing() && stone_ ? Object::contact_closing : Object::at_position;
 }
 
 void JawsDevice::lose_stone() {
   if (!stone_) return;
   stone_ = false;
+  catches_ = false;
   free_at_ = now_;
   from_ = position_;
   target_ = closed_position;
   rate_per_s_ = closed_position / scenario_.full_stroke_time_s;
   motion_start_ = now_;
   in_motion_ = true;
+}
+
+// A spindle that no longer locks itself: what was requested stays requested.
+void JawsDevice::give_way() {
+  if (!stone_) return;
+  catches_ = false;
+  from_ = position_;
+  target_ = 0.0;
+  rate_per_s_ = closed_position / scenario_.full_stroke_time_s;
+  motion_start_ = now_;
+  in_motion_ = true;
+  free_at_ = now_ + from_seconds(freeing_travel / rate_per_s_);
 }
 
 void JawsDevice::cut_power() {

@@ -26,12 +26,16 @@ class JawsDevice {
   std::array<std::uint16_t, 3> inputs() const;
   void step(Stamp now);
 
+  /// Whether a stone stands where closing fingers meet it.
+  void stone_between(bool between) { between_ = between; }
   bool stone_in_jaws() const { return stone_; }
   /// When the stone became, or will become, free; empty while nothing opens.
   std::optional<Stamp> free_at() const { return free_at_; }
 
+  void jam(bool jammed) { jammed_ = jammed; }  ///< fault injection: orders are answered, the fingers do not move
   void set_fault(std::uint8_t code) { fault_ = code; }  ///< fault injection
   void lose_stone();                                    ///< fault injection: closed jaws slip off the stone
+  void give_way();                                      ///< fault injection: the fingers open, nobody having asked
   void cut_power();                                     ///< fault injection: activation is gone, the jaws stay put
   void place_stone() { stone_ = true; }                 ///< between open jaws
 
@@ -51,7 +55,10 @@ class JawsDevice {
   Object object_ = Object::at_position;
   bool go_to_ = false;
   bool stone_ = false;
+  bool between_ = false;
+  bool catches_ = false;  ///< the present closing began with a stone between the fingers
   bool in_motion_ = false;
+  bool jammed_ = false;
   std::uint8_t fault_ = 0;
   std::uint8_t requested_ = 0;
   double position_ = 0.0;

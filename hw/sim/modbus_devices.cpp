@@ -64,6 +64,11 @@ void ModbusDevices::step(Stamp now) {
   arm_.step(now);
 }
 
+void ModbusDevices::stone_between(bool between) {
+  const std::lock_guard lock(mutex_);
+  jaws_.stone_between(between);
+}
+
 ModbusDevices::Effects ModbusDevices::effects() const {
   const std::lock_guard lock(mutex_);
   return {.stone_in_jaws = jaws_.stone_in_jaws(),

@@ -28,6 +28,8 @@ class ModbusDevices {
   unsigned serving() const { return stopped_ ? 0 : life_; }
   ModbusReply take(ModbusStationLine& line, std::span<const std::uint8_t> bytes);
   void step(Stamp now);
+  /// What the world does to the devices: a stone stands where closing fingers meet it.
+  void stone_between(bool between);
 
   /// What the devices do to the world.
   struct Effects {

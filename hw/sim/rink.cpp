@@ -73,12 +73,14 @@ void Rink::substep(Duration span) {
   world_.step({.axes = {left_.axis_radps(), right_.axis_radps()},
                .belt_radps = effects.belt_radps,
                .stone_free_at = effects.stone_free_at,
+               .stone_in_jaws = effects.stone_in_jaws,
                .arm_unfolded = effects.arm_unfolded},
               now());
 
   left_.step(now(), seconds(span), truth().left_wheel_radps);
   right_.step(now(), seconds(span), truth().right_wheel_radps);
   bus_.deliver();
+  modbus_.stone_between(world_.stone_between_jaws());
   modbus_.step(now());
   gyro_.step(now(), truth().twist.yaw_radps);
   history_.add(truth());

@@ -43,26 +43,16 @@ BodyMotion motion_of(const WorldHistory::Place& place) {
   return motion;
 }
 
-StoneLook look_of(const StoneTruth& stone, double radius_m, const Colour& plate) {
-  StoneLook look;
-  look.x_m = stone.x_m;
-  look.y_m = stone.y_m;
-  look.handle_rad = stone.handle_rad;
-  look.radius_m = radius_m;
-  look.plate = plate;
-  return look;
-}
-
 CameraWorld world_of(const Rink& rink, const Scenario& scenario, bool on_the_arm) {
   CameraWorld world;
   world.body = [&rink](Stamp stamp) { return motion_of(rink.history().at(stamp)); };
   world.things = [&rink, radius_m = scenario.stone.radius_m, people = scenario.people, seed = scenario.seed](
                      Stamp stamp, Exposure& exposure) {
     const auto place = rink.history().at(stamp);
-    exposure.stones.push_back(look_of(place.stone, radius_m, red_plate));
+    exposure.stones.push_back(look_of(place.stone, radius_m, 0));
     bool red = false;  // the teams throw by turns
     for (const auto& other : place.others) {
-      exposure.stones.push_back(look_of(other, radius_m, red ? red_plate : yellow_plate));
+      exposure.stones.push_back(look_of(other, radius_m, red ? 0 : 1));
       red = !red;
     }
     exposure.people = people_at(people, seed, stamp);
@@ -70,6 +60,18 @@ CameraWorld world_of(const Rink& rink, const Scenario& scenario, bool on_the_arm
   if (on_the_arm) world.uncovered = [&rink](Stamp stamp) { return rink.history().at(stamp).arm_unfolded >= 1.0; };
   return world;
 }
+
+RenderedCamera camera_of(const Rink& rink, const Scenario& scenario, const CameraRig& rig, const CameraScenario& camera,
+                         bool on_the_arm, std::uint64_t sequence, int threads) {
+  const std::uint64_t seed = scenario.seed ^ sequence << 32U;
+  vision::Mount mount = rig.mount;
+  mount.pitch_rad += camera.pitch_error_rad;
+  return {SheetRenderer(rig.intrinsics, ice_of(scenario), appearance_of(scenario), sensor_of(scenario, rig, camera),
+                        seed, threads),
+          vision::bMc(mount), timing_of(camera, rink.start()), world_of(rink, scenario, on_the_arm), seed};
+}
+
+}  // namespace
 
 CameraTiming timing_of(const CameraScenario& camera, Stamp start) {
   const double spread_s = 3.0 * camera.latency_jitter_s;
@@ -82,23 +84,28 @@ CameraTiming timing_of(const CameraScenario& camera, Stamp start) {
           .max_latency_s = camera.latency_s + spread_s};
 }
 
-RenderedCamera camera_of(const Rink& rink, const Scenario& scenario, const CameraRig& rig, const CameraScenario& camera,
-                         bool on_the_arm, std::uint64_t sequence, int threads) {
-  const std::uint64_t seed = scenario.seed ^ sequence << 32U;
+SensorModel sensor_of(const Scenario& scenario, const CameraRig& rig, const CameraScenario& camera) {
   SensorModel sensor;
   sensor.gamma = rig.gamma;
   sensor.full_scale_electrons = camera.electrons_full_scale;
   sensor.read_noise_electrons = camera.read_noise_electrons;
   sensor.pebble_contrast = scenario.sheet.pebble_contrast;
-  const vision::Ice ice{.paint_depth_m = scenario.sheet.paint_depth_m,
-                        .refractive_index = scenario.sheet.refractive_index};
-  vision::Mount mount = rig.mount;
-  mount.pitch_rad += camera.pitch_error_rad;
-  return {SheetRenderer(rig.intrinsics, ice, appearance_of(scenario), sensor, seed, threads), vision::bMc(mount),
-          timing_of(camera, rink.start()), world_of(rink, scenario, on_the_arm), seed};
+  return sensor;
 }
 
-}  // namespace
+vision::Ice ice_of(const Scenario& scenario) {
+  return {.paint_depth_m = scenario.sheet.paint_depth_m, .refractive_index = scenario.sheet.refractive_index};
+}
+
+StoneLook look_of(const StoneTruth& stone, double radius_m, int team) {
+  StoneLook look;
+  look.x_m = stone.x_m;
+  look.y_m = stone.y_m;
+  look.handle_rad = stone.handle_rad;
+  look.radius_m = radius_m;
+  look.plate = team == 0 ? red_plate : yellow_plate;
+  return look;
+}
 
 RinkAppearance appearance_of(const Scenario& scenario) {
   const auto& sheet = scenario.sheet;

@@ -22,4 +22,12 @@ RenderedCamera low_camera(const Rink& rink, const Scenario& scenario, const Came
 /// What the scenario's sheet and light look like.
 RinkAppearance appearance_of(const Scenario& scenario);
 
+/// Sensor, ice and timing that a scenario gives a camera of the rig.
+SensorModel sensor_of(const Scenario& scenario, const CameraRig& rig, const CameraScenario& camera);
+vision::Ice ice_of(const Scenario& scenario);
+CameraTiming timing_of(const CameraScenario& camera, Stamp start);
+
+/// How a stone looks whose team is the rig's first (red) or second (yellow).
+StoneLook look_of(const StoneTruth& stone, double radius_m, int team);
+
 }  // namespace hogline::hw::sim

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hogline::hw::sim {
@@ -139,6 +140,27 @@ struct CameraScenario {
   double pitch_error_rad = 0.0;  ///< the true mount's pitch less the rig file's
 };
 
+/// Somebody who steps into the skip's line of sight to the thrown stone and goes along with it.
+struct PasserScenario {
+  double from_s = 0.0;  ///< after the release
+  double for_s = 0.0;
+};
+
+/// The skip: a robot that stands behind the far house and looks at the stones that come. Frame e is the skip's.
+struct SkipScenario {
+  double x_m = 0.0;  ///< of b's origin in e
+  double y_m = 0.0;
+  double yaw_rad = 0.0;
+  DriveScenario head;               ///< the loops of pan and tilt
+  double pan_zero_error_rad = 0.0;  ///< true angle less what the encoder means
+  double tilt_zero_error_rad = 0.0;
+  CameraScenario far_camera;
+  double far_yaw_error_rad = 0.0;  ///< of the true far mount
+  double far_roll_error_rad = 0.0;
+  int sweepers = 0;  ///< 0 to 2, who walk beside the thrown stone
+  std::vector<PasserScenario> passers{};
+};
+
 struct Scenario {
   std::uint64_t seed = 0;
   SheetScenario sheet;
@@ -153,6 +175,7 @@ struct Scenario {
   GyroScenario gyro;
   CameraScenario near_camera;
   CameraScenario low_camera;
+  std::optional<SkipScenario> skip{};
 };
 
 }  // namespace hogline::hw::sim

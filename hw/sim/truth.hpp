@@ -52,8 +52,9 @@ struct Truth {
   std::vector<StoneTruth> others;  ///< stones that lay on the sheet
   int hits = 0;                    ///< collisions of stones so far
   std::optional<ReleaseRecord> release;
-  std::optional<Stamp> burned;  ///< when the robot touched the stone after its release
-  double arm_unfolded = 0.0;    ///< 0 folded .. 1 unfolded
+  std::optional<Stamp> set_down;  ///< when a robot that stands let the stone go, and has not gripped it again since
+  std::optional<Stamp> burned;    ///< when the robot touched the stone after its release
+  double arm_unfolded = 0.0;      ///< 0 folded .. 1 unfolded
 };
 
 }  // namespace hogline::hw::sim

@@ -11,6 +11,7 @@ namespace hogline::hw::sim {
 namespace {
 
 constexpr Duration longest_step = std::chrono::milliseconds(1);
+constexpr double standing_mps = 0.005;
 constexpr double tee_to_hog_m = 6.401;  // to the hog line's house-side edge (World Curling)
 
 }  // namespace
@@ -29,6 +30,7 @@ World::World(const Scenario& scenario, Stamp start)
 
 void World::step(const WorldInputs& inputs, Stamp until) {
   truth_.arm_unfolded = inputs.arm_unfolded;
+  grip_again(inputs);
   while (truth_.stamp < until) {
     Stamp end = std::min(truth_.stamp + longest_step, until);
     if (truth_.held && inputs.stone_free_at) {
@@ -88,9 +90,15 @@ void World::carry(double belt_radps) {
                   .handle_rad = truth_.stone.handle_rad};
 }
 
+// A stone that is let go by a robot that stands is set down; whoever takes it up again has not delivered it.
 void World::release() {
   truth_.held = false;
   auto& stone = truth_.stone;
+  if (std::hypot(stone.vx_mps, stone.vy_mps) < standing_mps) {
+    truth_.set_down = truth_.stamp;
+    stone.vx_mps = stone.vy_mps = 0.0;
+    return;
+  }
   const double before = std::hypot(stone.vx_mps, stone.vy_mps);
   const double speed = std::max(before - stone_.release_drag_mps, 0.0);
   if (before > 0.0) {
@@ -113,14 +121,29 @@ void World::settle() {
   while (any_moves()) slide_stones(seconds(longest_step));
 }
 
-void World::detect_touch() {
-  if (truth_.burned || !truth_.release) return;
+World::Offset World::from_jaws() const {
   const double dx = truth_.stone.x_m - truth_.body.x_m;
   const double dy = truth_.stone.y_m - truth_.body.y_m;
   const double s = std::sin(truth_.body.yaw_rad);
   const double c = std::cos(truth_.body.yaw_rad);
-  const double ahead = -s * dx + c * dy - stone_.stone_x_m;  // of where it was held
-  const double left = -c * dx - s * dy;
+  return {.ahead_m = -s * dx + c * dy - stone_.stone_x_m, .left_m = -c * dx - s * dy};
+}
+
+bool World::stone_between_jaws() const {
+  if (truth_.held || !truth_.set_down || truth_.release) return false;
+  const Offset offset = from_jaws();
+  return std::abs(offset.ahead_m) < stone_.front_clearance_m && std::abs(offset.left_m) < stone_.side_clearance_m;
+}
+
+void World::grip_again(const WorldInputs& inputs) {
+  if (truth_.held || !inputs.stone_in_jaws || inputs.stone_free_at || !stone_between_jaws()) return;
+  truth_.held = true;
+  truth_.set_down.reset();
+}
+
+void World::detect_touch() {
+  if (truth_.burned || !truth_.release) return;
+  const auto [ahead, left] = from_jaws();
   const bool front = ahead < -stone_.front_clearance_m && std::abs(left) < 2.0 * stone_.radius_m;
   const bool fingers = ahead < stone_.finger_reach_m && std::abs(left) > stone_.side_clearance_m;
   if (front || (fingers && std::abs(left) < 2.0 * stone_.radius_m)) truth_.burned = truth_.stamp;

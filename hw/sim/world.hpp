@@ -12,6 +12,7 @@ struct WorldInputs {
   AxisSpeeds axes;
   double belt_radps = 0.0;             ///< of the held stone, in the body
   std::optional<Stamp> stone_free_at;  ///< when the jaws let the stone go; may lie in the future
+  bool stone_in_jaws = false;          ///< the jaws are closed on it
   double arm_unfolded = 0.0;
 };
 
@@ -24,6 +25,8 @@ class World {
   /// Moves the world from where it is to `until`.
   void step(const WorldInputs& inputs, Stamp until);
   const Truth& truth() const { return truth_; }
+  /// A stone stands, at rest against the body, where it was held: closing jaws grip it.
+  bool stone_between_jaws() const;
 
   /// Lets every stone that slides come to rest, in no time: nothing else moves, no time passes.
   void settle();
@@ -31,6 +34,12 @@ class World {
  private:
   void substep(const WorldInputs& inputs, Duration span);
   void release();
+  void grip_again(const WorldInputs& inputs);
+  struct Offset {
+    double ahead_m = 0.0;
+    double left_m = 0.0;
+  };
+  Offset from_jaws() const;  // of the stone, from where it is held
   void carry(double belt_radps);
   void slide_stones(double dt_s);
   void detect_touch();

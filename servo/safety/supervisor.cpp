@@ -13,9 +13,9 @@ constexpr double resting_mps = 0.01;
 constexpr double resting_radps = 0.02;
 constexpr double moving_mps = 0.05;
 constexpr int contradicting_looks = 10;
-constexpr double delay_sigmas = 2.0;     // of the gripper's delay: its jitter and what is not yet learnt
 constexpr double unseen_travel_m = 0.3;  // no robot carries a stone further without ever having seen the line
 constexpr double rotation_error = 1e-6;
+constexpr double tee_to_hog_m = 6.401;  // a stone whose rim has not reached the near tee line is not in play
 
 std::string beyond(const char* what, double is, double allowed) {
   std::ostringstream text;
@@ -83,8 +83,10 @@ std::optional<std::string> Supervisor::arm(const ThrowerObservation& observation
   stop_ = {};
   agreement_ = TurnAgreement(config_.safety);
   place_ = PlaceBounds(config_.safety);
+  jaws_ = JawWatch(config_.release);
   last_now_.reset();
   released_ = false;
+  driven_ = false;
   return std::nullopt;
 }
 
@@ -92,7 +94,10 @@ ThrowerCommand Supervisor::permit(const ThrowerObservation& observation, const T
   watch(observation);
   if (state_ == Supervision::armed && active(wanted)) {
     stop_.set(judge(observation, wanted, dt));
-    if (!stop_.reason() && wanted.gripper.release && !released_) stop_.set(no_release(observation));
+    if (!stop_.reason() && wanted.gripper.release && !released_) {
+      stop_.set(no_release(observation, wanted.gripper.release_in));
+    }
+    if (!stop_.reason() && wanted.gripper.trial != JawTrial::none) stop_.set(no_trial(observation, wanted));
   }
   last_now_ = observation.now;
   if (stop_.reason() && state_ == Supervision::armed) {
@@ -102,6 +107,8 @@ ThrowerCommand Supervisor::permit(const ThrowerObservation& observation, const T
   if (state_ != Supervision::armed) return only_stopping(wanted);
 
   ThrowerCommand permitted = wanted;
+  jaws_.permitted(wanted.gripper.trial, observation.now);
+  driven_ = driven_ || drives(wanted.drive);
   released_ = released_ || wanted.gripper.release;
   permitted.gripper.release = released_;
   return permitted;
@@ -110,12 +117,13 @@ ThrowerCommand Supervisor::permit(const ThrowerObservation& observation, const T
 // Before anything moves and after everything stands there is nothing to judge: nobody sends set-points, and the drives
 // say so.
 bool Supervisor::active(const ThrowerCommand& wanted) const {
-  const bool opens = wanted.gripper.release && !released_;
+  const bool opens = (wanted.gripper.release && !released_) || wanted.gripper.trial != JawTrial::none;
   return !at_rest_ || drives(wanted.drive) || wanted.arm != ArmOrder::hold || wanted.gripper.spin_radps != 0.0 || opens;
 }
 
 void Supervisor::watch(const ThrowerObservation& o) {
   let_go_ = let_go_ || (o.operator_switch && !o.operator_switch->held);
+  jaws_.observe(o);
   if (!o.wheels) return;  // never heard of: not enabled by this program
   const Duration age = o.now - o.wheels->stamp;
   const PlanarTwist twist = twist_of({o.wheels->left_radps, o.wheels->right_radps}, config_.base);
@@ -135,6 +143,8 @@ std::optional<std::string> Supervisor::judge(const ThrowerObservation& o, const 
   take(o);
   if (auto reason = bad_motion(o, dt)) return reason;
   if (auto reason = bad_place(dt)) return reason;
+  const bool still = !drives(wanted.drive) && wanted.arm == ArmOrder::hold && wanted.gripper.spin_radps == 0.0;
+  if (jaws_.set_down() && !still) return "the stone has been set down and is not held: nothing may move";
   if (wanted.drive.order != DriveOrder::velocity) return std::nullopt;
   const PlanarTwist ordered = twist_of({wanted.drive.left_radps, wanted.drive.right_radps}, config_.base);
   return too_fast("ordered", ordered, config_.limits, config_.safety.speed_margin);
@@ -211,14 +221,31 @@ std::optional<std::string> Supervisor::bad_place(Duration dt) const {
   return std::nullopt;
 }
 
-std::optional<std::string> Supervisor::no_release(const ThrowerObservation& o) const {
+// The stone stands, and the robot with it: in the hack, without power, and with nothing else to do.
+std::optional<std::string> Supervisor::no_trial(const ThrowerObservation& o, const ThrowerCommand& wanted) const {
+  const std::string refused = "trial of the jaws refused: ";
+  if (released_ || wanted.gripper.release) return refused + "the stone is released";
+  if (wanted.gripper.trial == JawTrial::grip) return std::nullopt;  // on a stone that stands
+  if (driven_ || drives(wanted.drive)) return refused + "the drives have been ordered to move since arming";
+  if (!o.wheels || !at_rest_ || o.wheels->enabled) return refused + "the robot is not known to stand without power";
+  if (wanted.arm != ArmOrder::hold || wanted.gripper.spin_radps != 0.0) return refused + "something else is to move";
+  const auto bounds = place_.now();
+  if (!bounds) return refused + "the place is not known";
+  const double stone_m = bounds->nearest_m - config_.release.stone_x_m;
+  if (stone_m >= tee_to_hog_m + stone_to_hog_line_m) return std::nullopt;
+  return refused +
+         beyond("the stone is not in the hack; metres from the hog line", stone_m, tee_to_hog_m + stone_to_hog_line_m);
+}
+
+std::optional<std::string> Supervisor::no_release(const ThrowerObservation& o, Duration release_in) const {
   const std::string refused = "release refused: ";
   if (!o.wheels || !o.gripper || !o.gripper->holding) return refused + "no stone is held";
-  const double seen_s = std::max(0.0, seconds(o.now - o.wheels->stamp));
-  const double delay_s = config_.release.gripper_delay_s;
-  const double unsure_s = delay_sigmas * config_.release.gripper_delay_sigma_s;
-  const auto first = place_.ahead(seen_s + std::max(0.0, delay_s - unsure_s), config_.limits.max_acceleration_mps2);
-  const auto last = place_.ahead(seen_s + delay_s + unsure_s, config_.limits.max_acceleration_mps2);
+  if (release_in < Duration::zero() || release_in > config_.ages.wheels)
+    return refused + "its moment is not this period";
+  const double from_s = std::max(0.0, seconds(o.now - o.wheels->stamp)) + seconds(release_in);
+  const DelayBounds delay = jaws_.delay();
+  const auto first = place_.ahead(from_s + delay.least_s, config_.limits.max_acceleration_mps2);
+  const auto last = place_.ahead(from_s + delay.most_s, config_.limits.max_acceleration_mps2);
   if (!first || !last || place_.in_doubt()) return refused + "the place is not known";
   const HogBounds freed{last->nearest_m, first->farthest_m};
   const double plane_m = config_.release.hog_distance_m;

@@ -8,6 +8,7 @@
 #include "servo/command.hpp"
 #include "servo/observation.hpp"
 #include "servo/safety/input_check.hpp"
+#include "servo/safety/jaw_watch.hpp"
 #include "servo/safety/latch.hpp"
 #include "servo/safety/place_bounds.hpp"
 #include "servo/safety/turn_agreement.hpp"
@@ -22,7 +23,8 @@ enum class Supervision {
 
 class Supervisor {
  public:
-  explicit Supervisor(const ThrowerConfig& config) : config_(config), agreement_(config.safety) {}
+  explicit Supervisor(const ThrowerConfig& config)
+      : config_(config), agreement_(config.safety), jaws_(config.release) {}
 
   /// The operator's own act. Refused, with the reason, while the switch is not held, a device is in error or the wheels
   /// turn; and after a stop until the switch has been let go once.
@@ -35,6 +37,8 @@ class Supervisor {
   const std::optional<std::string>& reason() const { return stop_.reason(); }
   /// The stone's release has been let pass. It then stays ordered: jaws that close on a sliding stone would burn it.
   bool released() const { return released_; }
+  /// A trial has set the stone down in the hack, and it has not been seen held again.
+  bool set_down() const { return jaws_.set_down(); }
   std::optional<HogBounds> place() const { return place_.now(); }
   /// Whether a stone still held could be stopped before the rules' limit by braking now; nothing while its place is not
   /// known.
@@ -48,7 +52,8 @@ class Supervisor {
   InputNeeds needs(const ThrowerObservation& observation, const ThrowerCommand& wanted) const;
   std::optional<std::string> bad_motion(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> bad_place(Duration dt) const;
-  std::optional<std::string> no_release(const ThrowerObservation& observation) const;
+  std::optional<std::string> no_release(const ThrowerObservation& observation, Duration release_in) const;
+  std::optional<std::string> no_trial(const ThrowerObservation& observation, const ThrowerCommand& wanted) const;
   ThrowerCommand only_stopping(const ThrowerCommand& wanted) const;
 
   ThrowerConfig config_;
@@ -56,10 +61,12 @@ class Supervisor {
   Latch stop_;
   TurnAgreement agreement_;
   PlaceBounds place_{config_.safety};
+  JawWatch jaws_;
   std::optional<Stamp> last_now_;
   bool let_go_ = true;  ///< the switch, since the last stop
   bool at_rest_ = true;
   bool released_ = false;
+  bool driven_ = false;  ///< the drives have been let follow orders since arming
 };
 
 }  // namespace hogline::servo

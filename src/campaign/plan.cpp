@@ -47,6 +47,8 @@ config::ThrowerRig left_out(config::ThrowerRig rig, Without without) {
     case Without::latency:
       rig.looks.compensated = false;
       break;
+    case Without::tracking:  // not of the rig: request()
+      break;
     case Without::visual_alignment:
       rig.thrower.alignment.method = servo::AlignmentMethod::look_then_gyro;
       break;
@@ -64,6 +66,8 @@ std::string_view to_string(Without without) {
       return "refraction";
     case Without::latency:
       return "latency";
+    case Without::tracking:
+      return "tracking";
     case Without::visual_alignment:
       return "visual-alignment";
   }
@@ -71,7 +75,8 @@ std::string_view to_string(Without without) {
 }
 
 std::optional<Without> parse_without(std::string_view word) {
-  for (const Without without : {Without::nothing, Without::refraction, Without::latency, Without::visual_alignment}) {
+  for (const Without without :
+       {Without::nothing, Without::refraction, Without::latency, Without::tracking, Without::visual_alignment}) {
     if (word == to_string(without)) return without;
   }
   return std::nullopt;
@@ -93,7 +98,7 @@ Plan::Plan(PlanText text)
     : text_(std::move(text)),
       rig_(left_out(config::parse_thrower_rig(text_.rig, "rig"), text_.without)),
       scenario_(text_.scenario, "scenario") {
-  const bool in_pictures = text_.without == Without::refraction;
+  const bool in_pictures = text_.without == Without::refraction || text_.without == Without::tracking;
   if (in_pictures && text_.eyes == Eyes::oracle) {
     throw config::ConfigError("command line", 0, "--without", std::string(to_string(text_.without)),
                               "is left out in pictures: needs --seer rendered");
@@ -125,6 +130,7 @@ ThrowRequest Plan::request(const Draw& draw) const {
           .order = draw.order,
           .fault = std::nullopt,
           .eyes = text_.eyes,
+          .low_by_lines = text_.without == Without::tracking,
           .follow_stone = true,
           .settle = true,
           .render_threads = 1};

@@ -22,6 +22,7 @@ enum class Without {
   nothing,
   refraction,        ///< vision takes the paint to lie on the surface; rendered pictures only
   latency,           ///< what was seen is taken for the present
+  tracking,          ///< plain vpMeLine in the low view; rendered pictures only
   visual_alignment,  ///< one look at the start, then the turn by the gyro alone
 };
 std::string_view to_string(Without without);

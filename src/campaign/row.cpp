@@ -37,6 +37,8 @@ const std::vector<Column>& columns() {
                                          {"lateral_error_mm", &Row::lateral_error_mm},
                                          {"spin_error_percent", &Row::spin_error_percent},
                                          {"yaw_after_alignment_deg", &Row::yaw_after_alignment_deg},
+                                         {"delay_believed_ms", &Row::delay_believed_ms},
+                                         {"delay_measured_ms", &Row::delay_measured_ms},
                                          {"alignment_s", &Row::alignment_s},
                                          {"rest_x_m", &Row::rest_x_m},
                                          {"rest_y_m", &Row::rest_y_m},
@@ -131,6 +133,8 @@ Row row_of(const Draw& draw, const ThrowResult& result) {
           .lateral_error_mm = {},
           .spin_error_percent = {},
           .yaw_after_alignment_deg = {},
+          .delay_believed_ms = {},
+          .delay_measured_ms = {},
           .alignment_s = length_of(result, "align"),
           .rest_x_m = {},
           .rest_y_m = {},
@@ -138,6 +142,8 @@ Row row_of(const Draw& draw, const ThrowResult& result) {
           .simulated_s = result.sim_time_s,
           .abort = result.abort.value_or("")};
   if (result.yaw_after_alignment_rad) row.yaw_after_alignment_deg = *result.yaw_after_alignment_rad * degrees;
+  if (result.believed_delay_s) row.delay_believed_ms = 1e3 * *result.believed_delay_s;
+  if (result.measured_delay_s) row.delay_measured_ms = 1e3 * *result.measured_delay_s;
   if (const auto& release = result.release) {
     row.place_error_mm = 1e3 * (release->hog_distance_m - release->target_hog_distance_m);
     row.speed_error_mmps = 1e3 * release->speed_error_mps;

@@ -28,8 +28,10 @@ struct Row {
   std::optional<double> lateral_error_mm;
   std::optional<double> spin_error_percent;
   std::optional<double> yaw_after_alignment_deg;
-  std::optional<double> alignment_s;  ///< how long the turn took
-  std::optional<double> rest_x_m;     ///< of the stone, in e
+  std::optional<double> delay_believed_ms;  ///< of the jaws, when the release was timed
+  std::optional<double> delay_measured_ms;  ///< ... and as they then reported it
+  std::optional<double> alignment_s;        ///< how long the turn took
+  std::optional<double> rest_x_m;           ///< of the stone, in e
   std::optional<double> rest_y_m;
   double stop_hog_distance_m = 0.0;  ///< where the robot came to rest
   double simulated_s = 0.0;

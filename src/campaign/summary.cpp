@@ -71,8 +71,9 @@ std::string verdict(const Measure& m, const Statistics& s) {
 std::string draws_table(const Summary& s) {
   return fmt::format(
       "\n| resting places of tee draws | throws | mean m | sigma m | elite players' sigma m |\n|---|--:|--:|--:|--:|\n"
-      "| along | {} | {:.3f} | {:.3f} | 0.26 |\n| across | {} | {:.3f} | {:.3f} | 0.07 |\n",
-      s.along_m.count, s.along_m.mean, s.along_m.sigma, s.across_m.count, s.across_m.mean, s.across_m.sigma);
+      "| along | {} | {:.3f} | {:.3f} | {:.2f} |\n| across | {} | {:.3f} | {:.3f} | {:.2f} |\n",
+      s.along_m.count, s.along_m.mean, s.along_m.sigma, elite_along_sigma_m, s.across_m.count, s.across_m.mean,
+      s.across_m.sigma, elite_across_sigma_m);
 }
 
 ordered_json json_of(const Statistics& x) {

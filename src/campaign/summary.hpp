@@ -21,6 +21,10 @@ struct Measure {
 };
 const std::vector<Measure>& measures();
 
+/// Resting places of elite players' draws, one sigma.
+inline constexpr double elite_along_sigma_m = 0.26;
+inline constexpr double elite_across_sigma_m = 0.07;
+
 struct Count {
   std::string what;
   std::vector<int> throws;  ///< their numbers

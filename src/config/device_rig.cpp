@@ -5,6 +5,7 @@
 #include "src/config/config_error.hpp"
 #include "src/config/device_sections.hpp"
 #include "src/config/drive_sections.hpp"
+#include "src/config/link_section.hpp"
 
 namespace hogline::config {
 namespace {
@@ -20,7 +21,8 @@ hw::TwoWheelDriveConfig no_wheels() {
 }  // namespace
 
 DeviceRig read_devices(const Rig& rig, const Section& root, const Document& document) {
-  DeviceRig devices{.rig = rig, .drive = {}, .head = {}, .modbus = {}, .gripper = {}, .arm = {}, .gyro = {}};
+  DeviceRig devices{
+      .rig = rig, .drive = {}, .head = {}, .modbus = {}, .gripper = {}, .arm = {}, .gyro = {}, .link = {}};
   if (root.has("drive")) devices.drive = read_drive(root.section("drive"), document);
   if (root.has("head")) {
     devices.head = read_head(root.section("head"), devices.drive.value_or(no_wheels()), document);
@@ -37,6 +39,7 @@ DeviceRig read_devices(const Rig& rig, const Section& root, const Document& docu
   if (root.has("gyro")) {
     devices.gyro = GyroSection{read_gyro_device(root.section("gyro")), read_gyro_port(root.section("gyro"))};
   }
+  if (root.has("link")) devices.link = read_link(root.section("link"), document);
   return devices;
 }
 

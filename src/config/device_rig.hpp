@@ -9,6 +9,7 @@
 #include "hw/canopen/head_config.hpp"
 #include "hw/dsp3000/dsp3000_gyro.hpp"
 #include "hw/dsp3000/serial_port.hpp"
+#include "hw/link/link_config.hpp"
 #include "hw/modbus/modbus_gripper.hpp"
 #include "hw/modbus/modbus_session.hpp"
 #include "src/config/rig.hpp"
@@ -28,6 +29,7 @@ struct DeviceRig {
   std::optional<hw::ModbusGripperConfig> gripper;  ///< with modbus
   std::optional<hw::AxisConfig> arm;               ///< with modbus
   std::optional<GyroSection> gyro;
+  std::optional<hw::link::LinkConfig> link;
 };
 
 /// Reads and checks whatever devices a rig file declares. Throws ConfigError.

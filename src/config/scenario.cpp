@@ -114,6 +114,22 @@ CameraScenario read_camera(const Section& s) {
           .pitch_error_rad = s.radians("pitch_error_deg")};
 }
 
+SkipScenario read_skip(const Section& s) {
+  SkipScenario skip;
+  skip.x_m = s.number("x_m");
+  skip.y_m = s.number("y_m");
+  skip.yaw_rad = s.radians("yaw_deg");
+  skip.head = {.bandwidth_hz = s.number("bandwidth_hz"), .dead_time_s = s.number("dead_time_s")};
+  skip.pan_zero_error_rad = s.radians("pan_zero_error_deg");
+  skip.tilt_zero_error_rad = s.radians("tilt_zero_error_deg");
+  skip.far_yaw_error_rad = s.radians("far_yaw_error_deg");
+  skip.far_roll_error_rad = s.radians("far_roll_error_deg");
+  skip.far_camera = read_camera(s.section("far_camera"));
+  skip.sweepers = s.integer("sweepers");
+  for (const auto& passer : s.raw("passers")) skip.passers.push_back({passer[0], passer[1]});
+  return skip;
+}
+
 }  // namespace
 
 struct ScenarioFile::Content {
@@ -156,6 +172,7 @@ Scenario ScenarioFile::draw(std::uint64_t seed) const {
   scenario.gyro = read_gyro(s.section("gyro"));
   scenario.near_camera = read_camera(s.section("near_camera"));
   scenario.low_camera = read_camera(s.section("low_camera"));
+  if (s.has("skip")) scenario.skip = read_skip(s.section("skip"));
   return scenario;
 }
 

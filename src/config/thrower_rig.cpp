@@ -83,6 +83,7 @@ servo::RunConfig read_run(const Section& s) {
 
 servo::Deadlines read_deadlines(const Section& s) {
   return {.unfold = s.duration("unfold_s"),
+          .rehearse = s.duration("rehearse_s"),
           .measure = s.duration("measure_s"),
           .align = s.duration("align_s"),
           .fold = s.duration("fold_s"),
@@ -120,6 +121,8 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
                .stone_x_m = release.number("stone_x_m"),
                .gripper_delay_s = release.number("gripper_delay_s"),
                .gripper_delay_sigma_s = release.number("gripper_delay_sigma_s"),
+               .gripper_jitter_s = release.number("gripper_jitter_s"),
+               .rehearsals = release.integer("rehearsals"),
                .drag_mps = release.number("drag_mps"),
                .drag_sigma_mps = release.number("drag_sigma_mps"),
                .rest_hog_distance_m = release.number("rest_hog_distance_m")};
@@ -135,6 +138,7 @@ servo::ThrowerConfig read_thrower(const Section& root, const vision::Mount& near
   const Section odometry = t.section("odometry");
   c.odometry = {.scale_sigma = odometry.number("scale_sigma"),
                 .scale_drift_per_sqrt_m = odometry.number("scale_drift_per_sqrt_m"),
+                .creep_sigma_s2pm = odometry.number("creep_sigma_s2pm"),
                 .noise_m_per_sqrt_m = odometry.number("noise_m_per_sqrt_m"),
                 .speed_delay_s = odometry.number("speed_delay_s")};
   c.run = read_run(t.section("run"));
@@ -193,7 +197,8 @@ DeviceRig devices_of(const ThrowerRig& rig) {
           .modbus = rig.modbus,
           .gripper = rig.gripper,
           .arm = rig.arm,
-          .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port}};
+          .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port},
+          .link = {}};
 }
 
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }

@@ -15,6 +15,8 @@ const char* to_string(Group group);
 /// When the fault strikes.
 enum class Strike {
   power_on,     ///< before the devices boot
+  rehearsing,   ///< 20 ms after the first order to open the jaws on the standing stone
+  set_down,     ///< ... when they have let it go
   measuring,    ///< 0.3 s after the robot began to measure its place
   aligning,     ///< 0.3 s after it began to turn
   speeding_up,  ///< 1 s into the run

@@ -59,6 +59,7 @@ std::string outcome_of(const Row& row) {
       break;
   }
   const std::string stops = f.braked ? "stops" : f.stopped_after_s ? "rolls until friction stops it" : "does not stop";
+  if (row.fault.strike == Strike::set_down && !f.held) return stops + ", stone stands in the hack";
   if (row.fault.expect == Expect::stops_without_stone) return stops + ", stone lost by the jaws";
   if (!f.held) return f.result.release ? "stone let go in its window, " + stops : stops + ", stone lost";
   return stops + (f.over_the_line ? ", stone kept beyond the hog line" : ", stone kept");

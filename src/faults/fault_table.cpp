@@ -24,6 +24,10 @@ const char* to_string(Strike strike) {
   switch (strike) {
     case Strike::power_on:
       return "at power-on";
+    case Strike::rehearsing:
+      return "rehearsing";
+    case Strike::set_down:
+      return "stone set down";
     case Strike::measuring:
       return "measuring";
     case Strike::aligning:

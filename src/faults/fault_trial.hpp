@@ -43,6 +43,7 @@ struct Struck {
   servo::ThrowerState state{};   ///< in which the fault struck
   double room_m = 0.0;           ///< from the stone's centre to where it must be free, at that moment
   bool standing = false;         ///< the robot, in the end
+  bool set_down = false;         ///< ... and the stone where it was set down in the hack
   double release_error_m = 0.0;  ///< where the jaws let go, where they did
   double release_limit_m = 0.0;  ///< the window's half
   Finding finding;

@@ -45,14 +45,6 @@ Case over_words(Case c) {
 std::vector<Case> gyro_faults() {
   const Action silent = [](Site& s) { gyro(s).set_silent(true); };
   const Action speaks = [](Site& s) { gyro(s).set_silent(false); };
-  Case unnoticed =
-      goes_on("wrong mode", "incremental angle instead of rate, in the run", {}, enter_wrong_mode, hear_again);
-  unnoticed.shortcoming =
-      "the text variant does not say its mode, and on a straight run an angle's increment looks like a small rate. "
-      "Nobody notices: the stone is let go in its window, but its heading can be off by more than the tolerance. On "
-      "steel a "
-      "mode changes with a loss of power, and that is a silence: the adapter then asks for the rate again. The binary "
-      "variant tells its mode, and is found out at once.";
   return {
       stops("silence", "no more readings", silence, "gyro: timeout", silent, speaks),
       with(stops("silence", "the same, while the robot measures", silence, "gyro: timeout", silent, speaks),
@@ -76,7 +68,7 @@ std::vector<Case> gyro_faults() {
             biased(-2.0)),
       stops("overrange", "600 deg/s, marked valid", silence, "gyro: implausible", biased(600.0), biased(-600.0)),
       with(wrong_mode("incremental angle instead of rate, while the robot turns"), Strike::aligning),
-      unnoticed,
+      wrong_mode("incremental angle instead of rate, in the run"),
       over_words(wrong_mode("incremental angle instead of rate, binary variant")),
       goes_on(
           "burst after a stall", "held for 10 ms, then all at once", 10ms, [](Site& s) { gyro(s).set_held(true); },

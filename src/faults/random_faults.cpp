@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <mutex>
 #include <thread>
@@ -19,11 +20,11 @@ using hw::sim::mixed_bits;
 
 constexpr double brakes_mps2 = 2.5;     // the practice rig's quick stop
 constexpr double brakes_lag_s = 0.1;    // from the order to full braking
-constexpr double whole_throw_s = 13.5;  // from the beginning to standstill, without a fault
+constexpr double whole_throw_s = 14.5;  // from the beginning to standstill, without a fault
 constexpr double slowest_mps = 1.9;
 constexpr double fastest_mps = 2.8;
-constexpr std::array endings{Ending::thrown,       Ending::kept,           Ending::too_late,   Ending::lost,
-                             Ending::carried_over, Ending::outside_window, Ending::not_stopped};
+constexpr std::array endings{Ending::thrown, Ending::kept,         Ending::too_late,       Ending::set_down,
+                             Ending::lost,   Ending::carried_over, Ending::outside_window, Ending::not_stopped};
 
 Moment moment_of(std::uint64_t seed, std::size_t fault, int number) {
   const std::uint64_t bits = mixed_bits(mixed_bits(mixed_bits(seed) + fault) + static_cast<std::uint64_t>(number));
@@ -49,13 +50,15 @@ Ending ending_of(const RandomStrike& s) {
   const Finding& f = s.struck.finding;
   if (!s.struck.standing) return Ending::not_stopped;
   if (f.over_the_line) return s.struck.room_m < s.needed_m ? Ending::too_late : Ending::carried_over;
+  if (s.struck.set_down) return Ending::set_down;
   if (s.fault->expect == Expect::stops_without_stone && !f.held) return Ending::lost;
   if (!f.result.release) return Ending::kept;
   return std::abs(s.struck.release_error_m) <= s.struck.release_limit_m ? Ending::thrown : Ending::outside_window;
 }
 
 bool as_it_should(Ending ending) {
-  return ending == Ending::thrown || ending == Ending::kept || ending == Ending::too_late || ending == Ending::lost;
+  return ending == Ending::thrown || ending == Ending::kept || ending == Ending::too_late ||
+         ending == Ending::set_down || ending == Ending::lost;
 }
 
 std::string quoted(const std::string& text) {
@@ -82,6 +85,8 @@ const char* to_string(Ending ending) {
       return "stops, stone kept";
     case Ending::too_late:
       return "too late to brake";
+    case Ending::set_down:
+      return "stands by the stone in the hack";
     case Ending::lost:
       return "stone lost by the jaws";
     case Ending::carried_over:
@@ -97,37 +102,59 @@ const char* to_string(Ending ending) {
 std::vector<const Case*> faults_of_any_moment() {
   std::vector<const Case*> chosen;
   for (const Case& fault : fault_table()) {
-    const bool any_moment = fault.strike != Strike::power_on && fault.strike != Strike::braking && !fault.prepare;
+    const bool bound = fault.strike == Strike::power_on || fault.strike == Strike::rehearsing ||
+                       fault.strike == Strike::set_down || fault.strike == Strike::braking;
+    const bool any_moment = !bound && !fault.prepare;
     const bool again = fault.injected.starts_with("the same");
     if (any_moment && !again) chosen.push_back(&fault);
   }
   return chosen;
 }
 
+std::span<const Ending> all_endings() { return endings; }
+
+RandomStrike drawn_strike(const std::vector<const Case*>& faults, const StrikePlace& place, std::uint64_t seed) {
+  RandomStrike s;
+  s.fault = faults.at(place.fault);
+  s.number = place.number;
+  s.moment = moment_of(seed, place.fault, place.number);
+  return s;
+}
+
 std::vector<RandomStrike> strike_at_random(const std::vector<const Case*>& faults, int per_fault, std::uint64_t seed,
-                                           int jobs, const std::function<void()>& tick) {
-  const int count = static_cast<int>(faults.size()) * per_fault;
-  std::vector<RandomStrike> strikes(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
+                                           int jobs, const StrikeTick& tick, const KnownStrikes& known) {
+  const std::size_t count = faults.size() * static_cast<std::size_t>(per_fault);
+  std::vector<RandomStrike> strikes(count);
+  std::atomic<std::size_t> next{0};
   std::mutex mutex;
+  std::exception_ptr failure;
   const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      RandomStrike& s = strikes[static_cast<std::size_t>(i)];
-      const auto which = static_cast<std::size_t>(i / per_fault);
-      s.fault = faults[which];
-      s.number = i % per_fault;
-      s.moment = moment_of(seed, which, s.number);
+    for (std::size_t i = next++; i < count; i = next++) {
+      const StrikePlace place{i % faults.size(), static_cast<int>(i / faults.size())};
+      RandomStrike& s =
+          strikes[place.fault * static_cast<std::size_t>(per_fault) + static_cast<std::size_t>(place.number)];
+      if (const auto found = known.find(place); found != known.end()) {
+        s = found->second;
+        continue;
+      }
+      s = drawn_strike(faults, place, seed);
       s.struck = strike_at(*s.fault, s.moment);
       s.needed_m = needed_m(*s.fault, s.struck.finding.speed_mps);
       s.ending = ending_of(s);
       const std::lock_guard lock(mutex);
-      if (tick) tick();
+      try {
+        if (tick && !failure) tick(place, s);
+      } catch (...) {  // a full disk: the others end, too
+        failure = std::current_exception();
+        next = count;
+      }
     }
   };
   std::vector<std::jthread> crew;
   for (int i = 1; i < jobs; ++i) crew.emplace_back(work);
   work();
   crew.clear();
+  if (failure) std::rethrow_exception(failure);
   return strikes;
 }
 

@@ -10,7 +10,7 @@ const std::vector<std::string>& fault_names() {
   static const std::vector<std::string> names{"drive-heartbeat",  "drive-dies",       "camera-freeze",  "camera-stops",
                                               "camera-black",     "camera-saturated", "camera-repeats", "camera-late",
                                               "camera-time-back", "modbus-stop",      "modbus-stall",   "gyro-silent",
-                                              "gyro-invalid",     "can-down"};
+                                              "gyro-invalid",     "can-down",         "jaws-slip",      "jaws-open"};
   return names;
 }
 
@@ -72,6 +72,12 @@ void inject(FaultKind kind, SimulatedRobot& robot) {
       break;
     case FaultKind::can_down:
       rink.bus().set_up(false);
+      break;
+    case FaultKind::jaws_slip:
+      rink.modbus().inject([](auto& jaws, auto&, auto&) { jaws.lose_stone(); });
+      break;
+    case FaultKind::jaws_open:
+      rink.modbus().inject([](auto& jaws, auto&, auto&) { jaws.give_way(); });
       break;
   }
 }

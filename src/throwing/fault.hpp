@@ -24,7 +24,9 @@ enum class FaultKind {
   modbus_stall,
   gyro_silent,
   gyro_invalid,
-  can_down
+  can_down,
+  jaws_slip,
+  jaws_open
 };
 
 struct Fault {

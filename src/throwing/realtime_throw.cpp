@@ -155,6 +155,11 @@ ThrowOutcome throw_in_real_time(const ThrowRequest& request, const Progress& pro
     first = run_first(control_priority);
     Stamp last = start;
     for (Stamp due = start + period;; due += period) {
+      if (const auto release = loop.release_due(); release && *release < due) {
+        std::this_thread::sleep_until(clock.wall(*release));
+        const std::lock_guard lock(devices);
+        loop.let_go(clock.now());
+      }
       std::this_thread::sleep_until(clock.wall(due));
       const std::lock_guard lock(devices);
       const Stamp now = clock.now();

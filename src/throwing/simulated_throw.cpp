@@ -1,5 +1,6 @@
 #include "src/throwing/simulated_throw.hpp"
 
+#include "src/throwing/line_seer.hpp"
 #include "src/throwing/throw_recorder.hpp"
 
 namespace hogline {
@@ -44,6 +45,15 @@ void boot(SimulatedRobot& robot, Duration period) {
   }
 }
 
+void pass_period(hw::sim::Rink& rink, ThrowerLoop& loop, Duration period) {
+  const Stamp end = rink.now() + period;
+  if (const auto due = loop.release_due(); due && *due < end) {
+    if (*due > rink.now()) rink.step(*due - rink.now());
+    loop.let_go(rink.now());
+  }
+  if (rink.now() < end) rink.step(end - rink.now());
+}
+
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) {
   SimulatedRobot robot(simulated_rig(request), request.scenario, request.render_threads);
   const Duration period = request.rig.drive.timing.control_period;
@@ -52,14 +62,15 @@ ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress) 
   const Stamp start = robot.rink().now();
   VisionSeer vision(*request.rig.rig.near_camera, *request.rig.rig.low_camera);
   OracleSeer oracle = oracle_of(robot, request.rig);
-  WatchedSeer seer(request.eyes == Eyes::oracle ? static_cast<SheetSeer&>(oracle) : vision, robot.rink().history(),
-                   request.watch);
+  LineSeer lines(vision, *request.rig.rig.low_camera);
+  SheetSeer& looking = request.low_by_lines ? static_cast<SheetSeer&>(lines) : vision;
+  WatchedSeer seer(request.eyes == Eyes::oracle ? oracle : looking, robot.rink().history(), request.watch);
   ThrowerLoop loop(robot.devices(), ThrowerEyes(seer, request.rig.looks),
                    servo::Thrower(request.rig.thrower, request.order, start), servo::Supervisor(request.rig.thrower));
   loop.arm(start);
   ThrowRecorder recorder(request, robot, start);
   for (;;) {
-    robot.rink().step(period);
+    pass_period(robot.rink(), loop, period);
     const Stamp now = robot.rink().now();
     recorder.before(now, loop.thrower());
     loop.step(now, period);

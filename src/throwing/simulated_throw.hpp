@@ -25,8 +25,9 @@ struct ThrowRequest {
   servo::ShotOrder order;
   std::optional<Fault> fault;
   Eyes eyes = Eyes::vision;
-  bool follow_stone = true;  ///< go on until the released stone lies still
-  bool settle = false;       ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
+  bool low_by_lines = false;  ///< vision's low view is plain vpMeLine's (LineSeer), to compare with
+  bool follow_stone = true;   ///< go on until the released stone lies still
+  bool settle = false;        ///< ... but do not simulate the robot meanwhile: the log ends with the robot's throw
   int render_threads = 2;
   LookWatch watch{};  ///< told of every look, beside the truth
 };
@@ -53,6 +54,9 @@ OracleSeer oracle_of(const SimulatedRobot& robot, const config::ThrowerRig& rig)
 
 /// The devices boot and answer before anybody is asked to throw.
 void boot(SimulatedRobot& robot, Duration period);
+
+/// One control period of the rink: a release that is due within it is ordered at its moment.
+void pass_period(hw::sim::Rink& rink, ThrowerLoop& loop, Duration period);
 
 /// The same request gives the same outcome but for wall_time_s, which is left zero.
 ThrowOutcome throw_stone(const ThrowRequest& request, const Progress& progress);

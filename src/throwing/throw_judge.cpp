@@ -20,7 +20,7 @@ ThrowJudge::ThrowJudge(const servo::ThrowerConfig& config, const hw::sim::Scenar
 
 void ThrowJudge::watch(const hw::sim::Truth& truth, const servo::Thrower& thrower) {
   const ThrowerState state = thrower.state();
-  if (!line_start_ && state != ThrowerState::unfold && state != ThrowerState::measure && state != ThrowerState::align) {
+  if (!line_start_ && state > ThrowerState::align) {
     line_start_ = truth.body;
   }
   const double nearest_m = vision::rules::tee_to_hog_m - stone_radius_m_;

@@ -71,6 +71,8 @@ ThrowOutcome ThrowRecorder::outcome(const ThrowerLoop& loop, const VisionSeer& v
   ThrowOutcome outcome;
   outcome.result = judge_.verdict(robot_.rink().truth(), loop.thrower(), robot_.rink().now());
   outcome.result.measured_delay_s = loop.thrower().diagnosis().measured_delay_s;
+  outcome.result.rehearsed_delays_s = loop.thrower().diagnosis().rehearsed_delays_s;
+  outcome.result.believed_delay_s = loop.thrower().diagnosis().believed_delay_s;
   outcome.result.freed_at_speed_mps = loop.thrower().diagnosis().freed_at_speed_mps;
   outcome.result.fault_struck = request_.fault ? std::optional<bool>(!fault_waits_) : std::nullopt;
   for (const hw::DeviceError& error : loop.device_errors()) {

@@ -55,6 +55,8 @@ std::string result_line(const ThrowResult& result) {
   line["stop_hog_distance_m"] = result.stop_hog_distance_m;
   line["rest"] =
       result.rest ? ordered_json{{"x_m", result.rest->x_m}, {"y_m", result.rest->y_m}} : ordered_json(nullptr);
+  line["rehearsed_delays_s"] = result.rehearsed_delays_s;
+  line["believed_delay_s"] = or_null(result.believed_delay_s);
   line["measured_delay_s"] = or_null(result.measured_delay_s);
   if (result.fault_struck) line["fault_struck"] = *result.fault_struck;
   if (result.realtime) line["realtime"] = realtime_json(*result.realtime);

@@ -38,6 +38,8 @@ struct ThrowResult {
   double stop_hog_distance_m = 0.0;          ///< where the robot came to rest
   std::optional<hw::sim::StoneTruth> rest;   ///< where the released stone came to rest, in e
   std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
+  std::vector<double> rehearsed_delays_s;    ///< of the trials in the hack
+  std::optional<double> believed_delay_s;    ///< with which the release was timed
   std::optional<double> freed_at_speed_mps;  ///< of the body, as believed then
   std::optional<bool> fault_struck;          ///< of the injected fault; false: the run was over before
   std::optional<RealtimeFigures> realtime;   ///< of a throw against the wall clock

@@ -87,6 +87,7 @@ std::optional<std::string> ThrowerLoop::arm(Stamp now) {
 }
 
 void ThrowerLoop::step(Stamp now, Duration dt) {
+  if (release_due_) let_go(now);
   devices_.drive.step(now);
   devices_.gripper.step(now);
   devices_.arm.step(now);
@@ -166,13 +167,34 @@ void ThrowerLoop::apply(const servo::ThrowerCommand& command, Stamp now) {
       devices_.arm.unfold();
       break;
   }
-  if (command.gripper.release) {
-    devices_.gripper.release();
-    if (!releasing_) devices_.gripper.step(now);  // at once: a control period is a centimetre
+  apply_jaws(command.gripper, now);
+}
+
+void ThrowerLoop::apply_jaws(const servo::GripperCommand& command, Stamp now) {
+  if (command.release) {
+    if (releasing_) return;
     releasing_ = true;
-  } else {
-    devices_.gripper.spin(command.gripper.spin_radps);
+    release_due_ = now + command.release_in;
+    if (*release_due_ <= now) let_go(now);
+    return;
   }
+  devices_.gripper.spin(command.spin_radps);
+  if (command.trial == trial_) return;
+  trial_ = command.trial;
+  if (trial_ == servo::JawTrial::none) return;
+  if (trial_ == servo::JawTrial::open) {
+    devices_.gripper.release();
+  } else {
+    devices_.gripper.grip();
+  }
+  devices_.gripper.step(now);  // at once, as a release is
+}
+
+// At once: a control period is a centimetre.
+void ThrowerLoop::let_go(Stamp now) {
+  release_due_.reset();
+  devices_.gripper.release();
+  devices_.gripper.step(now);
 }
 
 }  // namespace hogline

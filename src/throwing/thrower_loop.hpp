@@ -22,6 +22,10 @@ class ThrowerLoop {
   std::optional<std::string> arm(Stamp now);
   /// `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
+  /// A release that the last step ordered for a moment before the next one. Whoever steps the loop calls let_go() then;
+  /// a step that comes first does it as well as it still can.
+  std::optional<Stamp> release_due() const { return release_due_; }
+  void let_go(Stamp now);
 
   const servo::Thrower& thrower() const { return thrower_; }
   const servo::Supervisor& supervisor() const { return supervisor_; }
@@ -45,7 +49,11 @@ class ThrowerLoop {
   servo::ThrowerCommand command_;  ///< as permitted
   std::string refusal_ = "not armed";
   std::vector<hw::DeviceError> device_errors_;
+  void apply_jaws(const servo::GripperCommand& command, Stamp now);
+
   bool releasing_ = false;
+  std::optional<Stamp> release_due_;
+  servo::JawTrial trial_ = servo::JawTrial::none;
 };
 
 }  // namespace hogline

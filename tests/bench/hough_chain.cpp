@@ -9,12 +9,15 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "tests/bench/flat_ground.hpp"
 #include "tests/bench/undistortion.hpp"
 #include "vision/geometry/sheet.hpp"
+#include "vision/plain/flat_ground.hpp"
 
 namespace hogline::bench {
 namespace {
+
+using vision::plain::FlatGround;
+using vision::plain::GroundLine;
 
 namespace rules = vision::rules;
 
@@ -111,7 +114,7 @@ std::optional<std::array<cv::Point2d, 4>> four_points(const Eigen::Matrix3d& con
 class HoughChain final : public Method {
  public:
   explicit HoughChain(const Camera& camera)
-      : mount_(camera.mount), undistortion_(camera.intrinsics), ground_(camera, undistortion_.matrix()) {}
+      : mount_(camera.mount), undistortion_(camera.intrinsics), ground_(camera.mount, undistortion_.matrix()) {}
 
   void start(const Frame&, const vision::Pose&) override {}
 

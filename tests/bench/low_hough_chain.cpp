@@ -7,12 +7,15 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "tests/bench/flat_ground.hpp"
 #include "tests/bench/undistortion.hpp"
 #include "vision/geometry/sheet.hpp"
+#include "vision/plain/flat_ground.hpp"
 
 namespace hogline::bench {
 namespace {
+
+using vision::plain::FlatGround;
+using vision::plain::GroundLine;
 
 namespace rules = vision::rules;
 
@@ -49,7 +52,7 @@ class LowHoughChain final : public Method {
       : width_m_(width_m),
         size_(camera.intrinsics.width_px, camera.intrinsics.height_px),
         undistortion_(camera.intrinsics),
-        ground_(camera, undistortion_.matrix()) {}
+        ground_(camera.mount, undistortion_.matrix()) {}
 
   void start(const Frame&, const vision::Pose&) override {}
 

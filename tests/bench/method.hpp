@@ -11,6 +11,7 @@
 #include "vision/geometry/lens.hpp"
 #include "vision/geometry/pose.hpp"
 #include "vision/percepts/stamp.hpp"
+#include "vision/plain/painted_line.hpp"
 
 namespace hogline::bench {
 
@@ -41,6 +42,8 @@ inline Look refused(std::string reason, double undistort_s = 0.0) {
   return look;
 }
 
+using vision::plain::PaintedLine;
+
 class Method {
  public:
   Method() = default;
@@ -52,13 +55,6 @@ class Method {
   virtual void start(const Frame& frame, const vision::Pose& eMc) = 0;
 
   virtual Look look(const Frame& frame) = 0;
-};
-
-/// A straight line of paint in e, on z = 0.
-struct PaintedLine {
-  std::string name;
-  Eigen::Vector2d begin;
-  Eigen::Vector2d end;
 };
 
 }  // namespace hogline::bench

@@ -1,29 +1,28 @@
-// The whole picture without the lens's distortion, as the methods want it that know nothing of lenses. The maps are
-// made once, in fixed point, which is OpenCV's fastest way; the camera matrix stays, as cv::undistort keeps it, so that
-// the picture's middle keeps its resolution. 17 % of the near camera's picture, in its corners, leaves the frame.
+// vision/plain's undistortion, timed: part of what a method costs that knows nothing of lenses.
 #pragma once
 
-#include <opencv2/core/mat.hpp>
-
-#include "tests/bench/method.hpp"
+#include "tests/bench/processor_time.hpp"
+#include "vision/plain/undistortion.hpp"
 
 namespace hogline::bench {
 
 class Undistortion {
  public:
-  explicit Undistortion(const vision::Intrinsics& intrinsics);
+  explicit Undistortion(const vision::Intrinsics& intrinsics) : undistortion_(intrinsics) {}
 
   /// Any number of channels; the result is overwritten by the next call. Adds the processor time to `spent_s`.
-  const cv::Mat& apply(const cv::Mat& image, double& spent_s);
+  const cv::Mat& apply(const cv::Mat& image, double& spent_s) {
+    const double begin_s = processor_time_s();
+    const cv::Mat& flat = undistortion_.apply(image);
+    spent_s += processor_time_s() - begin_s;
+    return flat;
+  }
 
   /// The camera matrix of the undistorted picture.
-  const cv::Matx33d& matrix() const { return matrix_; }
+  const cv::Matx33d& matrix() const { return undistortion_.matrix(); }
 
  private:
-  cv::Matx33d matrix_;
-  cv::Mat map_;
-  cv::Mat map_fraction_;
-  cv::Mat undistorted_;
+  vision::plain::Undistortion undistortion_;
 };
 
 }  // namespace hogline::bench

@@ -7,8 +7,10 @@
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
+#include "tests/support/random_far_scene.hpp"
 #include "tests/support/turning_sequence.hpp"
 #include "tests/vision/scene.hpp"
+#include "vision/far_view/far_view.hpp"
 #include "vision/fit/sheet_fit.hpp"
 #include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
@@ -49,6 +51,48 @@ void near_fit(benchmark::State& state, const char* name) {
   state.counters["yaw_error_mdeg"] = 1000.0 * yaw_error_deg;
 }
 
+hogline::testing::FarScene far_scene(int stones) {
+  return hogline::testing::random_far_scene(1, {.most_stones = stones, .least_stones = stones});
+}
+
+// One picture down the sheet, without memory.
+void far_look(benchmark::State& state) {
+  const auto far = far_scene(static_cast<int>(state.range(0)));
+  const cv::Mat picture = render(far.scene);
+  FarSetup setup;
+  setup.camera = far.scene.setup;
+  FarView view(setup);
+  FarPlan plan;
+  plan.eMc = far.planned;
+  double stones = 0.0;
+  for (auto _ : state) stones = static_cast<double>(view.look(picture, Stamp{}, plan).stones.size());
+  state.counters["stones"] = stones;
+}
+
+// One of consecutive pictures, each drawn with its own noise, after a quarter of a second.
+void far_track(benchmark::State& state) {
+  const auto far = far_scene(static_cast<int>(state.range(0)));
+  const hogline::hw::sim::SheetRenderer renderer(far.scene.setup.intrinsics, far.scene.setup.ice, far.scene.rink,
+                                                 far.scene.sensor, 1);
+  std::vector<cv::Mat> pictures(8);
+  for (std::size_t k = 0; k < pictures.size(); ++k) renderer.render(far.scene.exposure, k, pictures[k]);
+  FarSetup setup;
+  setup.camera = far.scene.setup;
+  FarSequence sequence(setup);
+  FarPlan plan;
+  plan.eMc = far.planned;
+  Stamp stamp{};
+  std::size_t k = 0;
+  double stones = 0.0;
+  const auto step = [&] {
+    stamp += from_seconds(1.0 / 30.0);
+    stones = static_cast<double>(sequence.look(pictures[k++ % pictures.size()], stamp, plan, {}).stones.size());
+  };
+  for (int i = 0; i < 8; ++i) step();
+  for (auto _ : state) step();
+  state.counters["stones"] = stones;
+}
+
 // A frame of a robot that turns at 20 deg/s, to and fro: eight frames are drawn, so that each comes from memory anew.
 void near_track(benchmark::State& state) {
   const hogline::testing::TurningSequence sequence(hogline::testing::turning_move());
@@ -79,6 +123,8 @@ BENCHMARK_CAPTURE(near_acquire, no_sidelines, "near/near-11-003")->Unit(benchmar
 BENCHMARK_CAPTURE(near_acquire, stones, "skip/skip-12-002")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near_fit, plain, "near/near-11-000")->Unit(benchmark::kMillisecond);
 BENCHMARK(near_track)->Unit(benchmark::kMillisecond);
+BENCHMARK(far_look)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(far_track)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace hogline::vision

@@ -14,10 +14,15 @@
 
 #include "tests/bench/undistortion.hpp"
 #include "tests/bench/visp_pose.hpp"
-#include "tests/bench/visp_tracked_line.hpp"
+#include "vision/plain/tracked_line.hpp"
 
 namespace hogline::bench {
 namespace {
+
+using vision::plain::FlatCamera;
+using vision::plain::image_point;
+using vision::plain::moving_edges;
+using vision::plain::TrackedLine;
 
 constexpr double slipped_px = 4.0;
 constexpr double pi = 3.14159265358979323846;

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <csignal>
 #include <deque>
-#include <fstream>
 #include <sstream>
 #include <thread>
 
 #include "hw/canopen/can_hub.hpp"
 #include "src/steel/robot_bus.hpp"
 #include "tests/hil/hil.hpp"
+#include "tests/hil/load_robot.hpp"
 #include "tests/hil/load_tally.hpp"
 #include "tests/hil/process.hpp"
 #include "tests/hw/canopen/drive_bench.hpp"
@@ -24,7 +24,6 @@ namespace test = hogline::hw::test;
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> nodes{1, 2, 3, 4};
 constexpr int periods = 1200;  // 6 s on a machine that has the time
 
 // Stalls of the machine are no faults of the bus.
@@ -64,7 +63,7 @@ class Drives {
 
  private:
   static std::vector<CanFilter> heard_by_nodes() {
-    return robot_bus_config("", nodes, 127).own;  // what the master says
+    return robot_bus_config("", load_nodes, 127).own;  // what the master says
   }
 
   void live() {
@@ -103,12 +102,6 @@ TwoAxisHeadConfig silent_head_config() {
   return config;
 }
 
-SocketCanConfig patient_bus(const std::string& interface) {
-  SocketCanConfig config = robot_bus_config(interface, nodes, 127);
-  config.confirm_deadline = 2s;
-  return config;
-}
-
 // The robot's side of the bus.
 struct Robot {
   explicit Robot(const std::string& interface)
@@ -141,12 +134,8 @@ struct Robot {
     return done();
   }
 
-  bool both(DrivePhase phase) const { return wheels.state().phase == phase && head.state().phase == phase; }
-  std::string why() const {
-    for (const auto& error : {wheels.state().error, head.state().error})
-      if (error) return error->device + ": " + error->what;
-    return "no error";
-  }
+  bool both(DrivePhase phase) const { return hil::both(wheels, head, phase); }
+  std::string why() const { return hil::why(wheels, head); }
 
   SocketCanBus bus;
   CanHub hub;
@@ -154,13 +143,6 @@ struct Robot {
   TwoAxisHead head;
   int stalls = 0;
 };
-
-long frames_on(const std::string& interface) {
-  std::ifstream file("/sys/class/net/" + interface + "/statistics/tx_packets");
-  long count = 0;
-  file >> count;
-  return count;
-}
 
 // A row of doc/performance.md, and the histogram.
 void print(const LoadTally& tally, int stalls, double frames_per_s, std::uint64_t dropped) {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
-#include <fstream>
 
 #include "hw/canopen/can_hub.hpp"
 #include "hw/clock.hpp"
 #include "src/steel/robot_bus.hpp"
 #include "tests/hil/can_node.hpp"
 #include "tests/hil/hil.hpp"
+#include "tests/hil/load_robot.hpp"
 #include "tests/hil/load_tally.hpp"
 #include "tests/hil/process.hpp"
 #include "tests/hw/canopen/drive_bench.hpp"
@@ -24,7 +24,6 @@ namespace test = hogline::hw::test;
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> nodes{1, 2, 3, 4};
 constexpr Duration tick = 1ms;
 constexpr double frame_s = 112e-6;  // eight bytes at 1 Mbit/s, with stuffing
 constexpr int load_frames_per_s = 640;
@@ -73,19 +72,12 @@ TwoAxisHeadConfig silent_head_config() {
   return config;
 }
 
-// The kernel may hand a frame over later than the stepped time goes on.
-SocketCanConfig patient_bus(const std::string& interface) {
-  SocketCanConfig config = robot_bus_config(interface, nodes, 127);
-  config.confirm_deadline = 2s;
-  return config;
-}
-
 // Both ends of one kernel interface, stepped together.
 class SteppedRobot {
  public:
   explicit SteppedRobot(const std::string& interface)
       : kernel_(patient_bus(interface), now()),
-        drives_kernel_({.interface = interface, .receive = robot_bus_config(interface, nodes, 127).own}, now()),
+        drives_kernel_({.interface = interface, .receive = robot_bus_config(interface, load_nodes, 127).own}, now()),
         stepped_(kernel_, clock_),
         drives_stepped_(drives_kernel_, clock_),
         hub_(stepped_),
@@ -108,12 +100,8 @@ class SteppedRobot {
     }
     return done();
   }
-  bool both(DrivePhase phase) const { return wheels_.state().phase == phase && head_.state().phase == phase; }
-  std::string why() const {
-    for (const auto& error : {wheels_.state().error, head_.state().error})
-      if (error) return error->device + ": " + error->what;
-    return "no error";
-  }
+  bool both(DrivePhase phase) const { return hil::both(wheels_, head_, phase); }
+  std::string why() const { return hil::why(wheels_, head_); }
   void enable() {
     wheels_.enable();
     head_.enable();
@@ -174,13 +162,6 @@ class SteppedRobot {
   bool loading_ = false;
   double owed_ = 0.0;
 };
-
-long frames_on(const std::string& interface) {
-  std::ifstream file("/sys/class/net/" + interface + "/statistics/tx_packets");
-  long count = 0;
-  file >> count;
-  return count;
-}
 
 class SteppedLoad : public VcanTest {};
 

@@ -254,6 +254,58 @@ TEST(HogDistanceFilter, OutliersAreGatedAndCounted) {
   }
 }
 
+// Sure of the place to half a millimetre; then the wheels lose way little by little, as studs do that creep.
+TEST(HogDistanceFilter, LooksThatAgreeWithEachOtherAreBelievedAgain) {
+  constexpr double sigma_m = 0.0006;
+  for (const double lost : {-0.02, -0.01, 0.01, 0.02}) {
+    HogDistanceFilter filter(thrower_config().odometry, start, 9.0, 0.003);
+    double distance = 9.0;
+    int i = 0;
+    int longest = 0;
+    const auto drive = [&](int until, double share, bool seen) {
+      while (++i <= until) {
+        distance -= 1.5 * seconds(period);
+        filter.odometry(start + period * i, 1.5 * (1.0 + share), 0.0);
+        if (seen && i % 3 == 0) filter.hog_distance(start + period * i, distance, sigma_m);
+        longest = std::max(longest, filter.gated_in_a_row());
+      }
+      --i;
+    };
+    drive(300, 0.0, true);
+    drive(360, lost, false);  // ... behind somebody's legs
+    drive(500, lost, true);
+    const HogDistanceEstimate estimate = filter.at(start + period * 500);
+    EXPECT_LT(longest, 6) << "lost " << lost;
+    EXPECT_NEAR(estimate.hog_distance_m, distance, 4.0 * estimate.hog_distance_sigma_m) << "lost " << lost;
+    EXPECT_NEAR(estimate.scale, 1.0 / (1.0 + lost), 0.002) << "lost " << lost;
+  }
+}
+
+TEST(HogDistanceFilter, WhatNoSlipExplainsStaysRefused) {
+  HogDistanceFilter filter(thrower_config().odometry, start, 9.0, 0.003);
+  for (int i = 1; i <= 100; ++i) {
+    filter.odometry(start + period * i, 1.5, 0.0);
+    const double distance = 9.0 - 1.5 * seconds(period) * i;
+    if (i % 3 == 0) filter.hog_distance(start + period * i, distance + (i > 40 ? 0.3 : 0.0), 0.001);
+  }
+  EXPECT_EQ(filter.gated_in_a_row(), 20);
+  EXPECT_NEAR(filter.at(start + period * 100).hog_distance_m, 9.0 - 0.75, 0.005);
+}
+
+TEST(HogDistanceFilter, LooksThatShareAnErrorAreWorthLittleMoreThanOneOfThem) {
+  const auto sigma_after = [](double counts_as) {
+    HogDistanceFilter filter(thrower_config().odometry, start, 9.0, 1.0);
+    for (int i = 1; i <= 60; ++i) {
+      filter.odometry(start + period * i, 0.0, 0.0);
+      filter.hog_distance(start + period * i, 9.0, 0.006, counts_as);
+    }
+    return filter.at(start + period * 60).hog_distance_sigma_m;
+  };
+  EXPECT_NEAR(sigma_after(1.0), 0.006 / std::sqrt(60.0), 1e-5);
+  EXPECT_GT(sigma_after(1.0 / 60.0), 0.006 / 2.0);
+  EXPECT_LT(sigma_after(1.0 / 60.0), 0.006);
+}
+
 TEST(HogDistanceFilter, LooksActAtTheirOwnStamp) {
   HogDistanceFilter filter(thrower_config().odometry, start, 5.0, 0.05);
   for (int i = 1; i <= 100; ++i) filter.odometry(start + period * i, 2.0, 0.0);

@@ -12,6 +12,7 @@ constexpr double tee_to_hog_m = 6.401;
 constexpr int substeps = 5;
 constexpr double frame_period_s = 1.0 / 60.0;
 constexpr double arm_time_s = 1.0;
+constexpr double grip_time_s = 0.2;
 constexpr double spin_lag_s = 0.15;
 constexpr double disturbance_time_s = 0.5;
 constexpr double quick_stop_mps2 = 2.5;
@@ -40,8 +41,10 @@ ThrowerObservation Plant::observe() {
   o.wheels = WheelObservation{bus_stamp, left_radps_, right_radps_, !enabled_, enabled_};
   const double gyro_noise = settings_.gyro_noise_rad_per_sqrt_s / std::sqrt(seconds(period));
   o.gyro = GyroObservation{now_, truth_.yaw_rate_radps + settings_.gyro_bias_radps + noise(gyro_noise), true};
-  o.gripper = GripperObservation{bus_stamp, !jaws_opened(), jaws_opened(), spin_radps_, {}, {}};
+  o.gripper =
+      GripperObservation{bus_stamp, !jaws_opened() && !set_down_, jaws_opened() || set_down_, spin_radps_, {}, {}};
   if (jaws_opened()) o.gripper->opening_since = release_stamp_;
+  if (set_down_) o.gripper->opening_since = o.gripper->freed_at = set_down_;
   o.arm = ArmObservation{bus_stamp, arm_up_ <= 0.0, arm_up_ >= 1.0};
   o.near_view = near_view_;
   o.low_view = low_view_;
@@ -94,7 +97,8 @@ SheetPosePercept Plant::percept(bool near) {
 
 void Plant::apply(const ThrowerCommand& command) {
   command_ = command;
-  if (command.gripper.release && !release_ordered_) release_ordered_ = now_;
+  if (command.gripper.release && !release_ordered_) release_ordered_ = now_ + command.gripper.release_in;
+  if (command.gripper.trial != trial_) try_jaws(command.gripper.trial);
   on_the_bus_.push_back(command.drive);
   if (on_the_bus_.size() > 2) on_the_bus_.pop_front();
   for (int i = 0; i < substeps; ++i) {
@@ -147,7 +151,19 @@ void Plant::move(double dt_s) {
   least_gap_m_ = std::min(least_gap_m_, stone_gap_m_);
 }
 
+void Plant::try_jaws(JawTrial trial) {
+  trial_ = trial;
+  if (trial == JawTrial::none) return;
+  trial_ends_ = now_ + from_seconds(trial == JawTrial::open ? settings_.gripper_delay_s : grip_time_s) +
+                from_seconds(noise(trial == JawTrial::open ? settings_.gripper_jitter_s : 0.0));
+  if (trial == JawTrial::grip && !settings_.grips_again) trial_ends_.reset();
+}
+
 void Plant::run_gripper() {
+  if (trial_ends_ && now_ >= *trial_ends_) {
+    set_down_ = trial_ == JawTrial::open ? trial_ends_ : std::nullopt;
+    trial_ends_.reset();
+  }
   if (!release_ordered_ || jaws_opened() || now_ < *release_ordered_ + from_seconds(settings_.gripper_delay_s)) return;
   at_release_ = truth_;
   release_stamp_ = now_;

@@ -37,7 +37,9 @@ struct PlantSettings {
   double visible_from_m = 6.5;  ///< hog distances the low view sees the line at
   double visible_to_m = 0.68;
   double gripper_delay_s = 0.075;
-  double grip_mps2 = 100.0;  ///< the body gains and loses speed no faster than this; beyond it the wheels spin
+  double gripper_jitter_s = 0.0;  ///< of the trials before the run
+  bool grips_again = true;        ///< after a trial
+  double grip_mps2 = 100.0;       ///< the body gains and loses speed no faster than this; beyond it the wheels spin
 };
 
 struct PlantTruth {
@@ -65,6 +67,7 @@ class Plant {
   /// The least distance between the robot and the stone since it was let go, beyond the held one's; negative: touched.
   double least_gap_m() const { return least_gap_m_; }
   bool jaws_opened() const { return at_release_.has_value(); }
+  bool set_down() const { return set_down_.has_value(); }
 
  private:
   void move(double dt_s);
@@ -72,6 +75,7 @@ class Plant {
   void look();
   SheetPosePercept percept(bool near);
   void run_gripper();
+  void try_jaws(JawTrial trial);
   double noise(double sigma);
 
   ThrowerConfig config_;
@@ -89,6 +93,9 @@ class Plant {
   double spin_radps_ = 0.0;
   std::optional<Stamp> release_ordered_;
   Stamp release_stamp_{};
+  JawTrial trial_ = JawTrial::none;
+  std::optional<Stamp> trial_ends_;
+  std::optional<Stamp> set_down_;
   std::optional<PlantTruth> at_release_;
   double stone_gap_m_ = 0.0;
   double stone_speed_mps_ = 0.0;

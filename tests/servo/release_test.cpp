@@ -31,7 +31,7 @@ ReleaseOutlook good(double speed_mps) {
   return outlook;
 }
 
-RC_GTEST_PROP(Release, IsOrderedInThePeriodNearestToTheWantedMoment, ()) {
+RC_GTEST_PROP(Release, IsOrderedAtTheWantedMomentWithinItsPeriod, ()) {
   const ThrowerConfig config = thrower_config();
   const double speed = between(1.5, 3.5);
   double distance = config.release.hog_distance_m + speed * (config.release.gripper_delay_s + between(0.02, 0.1));
@@ -39,8 +39,9 @@ RC_GTEST_PROP(Release, IsOrderedInThePeriodNearestToTheWantedMoment, ()) {
     const ReleaseDecision decision = decide_release(config.release, config.run, moving(distance, speed), good(speed));
     RC_ASSERT(decision.verdict != ReleaseVerdict::never);
     if (decision.verdict == ReleaseVerdict::release) {
-      const double freed_at = distance - speed * config.release.gripper_delay_s;
-      RC_ASSERT(std::abs(freed_at - config.release.hog_distance_m) <= speed * seconds(period) / 2.0 + 1e-9);
+      const double freed_at = distance - speed * (seconds(decision.in) + config.release.gripper_delay_s);
+      RC_ASSERT(decision.in >= Duration::zero() && decision.in < period);
+      RC_ASSERT(std::abs(freed_at - config.release.hog_distance_m) <= 1e-6);
       return;
     }
     distance -= speed * seconds(period);
@@ -59,7 +60,7 @@ RC_GTEST_PROP(Release, NeverOutsideTheWindowNorTooNearToTheLine, ()) {
   outlook.heading_rad = between(-0.01, 0.01);
   const ReleaseDecision decision = decide_release(config.release, config.run, moving(distance, speed), outlook);
   if (decision.verdict != ReleaseVerdict::release) return;
-  const double freed_at = distance - speed * config.release.gripper_delay_s;
+  const double freed_at = distance - speed * (seconds(decision.in) + config.release.gripper_delay_s);
   RC_ASSERT(std::abs(freed_at - config.release.hog_distance_m) <= config.release.tolerance_m + 1e-9);
   RC_ASSERT(stone_distance_m(freed_at, outlook.heading_rad, config.release) >= stone_to_hog_line_m);
 }

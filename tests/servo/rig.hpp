@@ -34,6 +34,8 @@ inline ThrowerConfig thrower_config() {
                .stone_x_m = 0.45,
                .gripper_delay_s = 0.075,
                .gripper_delay_sigma_s = 0.003,
+               .gripper_jitter_s = 0.002,
+               .rehearsals = 0,
                .drag_mps = 0.0,
                .drag_sigma_mps = 0.002,
                .rest_hog_distance_m = -0.5};
@@ -60,7 +62,8 @@ inline ThrowerConfig thrower_config() {
             .bias_drift_radps_per_sqrt_s = 1e-6,
             .scale_noise_rad_per_sqrt_rad = 1e-3,
             .timing_sigma_s = 2e-3};
-  c.odometry = {.scale_sigma = 0.02, .scale_drift_per_sqrt_m = 0.0005, .noise_m_per_sqrt_m = 0.001};
+  c.odometry = {
+      .scale_sigma = 0.02, .scale_drift_per_sqrt_m = 0.0005, .creep_sigma_s2pm = 0.0, .noise_m_per_sqrt_m = 0.001};
   c.run = {.sight_from_hog_m = 4.4,
            .sight_to_hog_m = 1.7,
            .hold_distance_m = 0.8,
@@ -84,7 +87,8 @@ inline ThrowerConfig thrower_config() {
               .max_tilt_rad = 3.0 * degree,
               .operator_age = 300ms,
               .low_cRb = camera_rotation(20.0 * degree, 0.0)};
-  c.deadlines = {.unfold = 6s, .measure = 5s, .align = 8s, .fold = 6s, .run = 10s, .release = 300ms, .brake = 5s};
+  c.deadlines = {
+      .unfold = 6s, .rehearse = 6s, .measure = 5s, .align = 8s, .fold = 6s, .run = 10s, .release = 300ms, .brake = 5s};
   return c;
 }
 

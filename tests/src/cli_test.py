@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
+import importlib.util
 import json
 import os
 import shutil
 import re
+import socket
 import subprocess
 import sys
 import tempfile
@@ -119,6 +121,45 @@ class WrongUse(unittest.TestCase):
         self.assertEqual(run().returncode, 2)
 
 
+class Link(unittest.TestCase):
+    """Keys and the link's own command; what goes over the wire is tested in tests/hw/link."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_keys_are_made_once(self):
+        keys = os.path.join(self.folder.name, "keys")
+        made = run("keys", "--out", keys, "--domain", "7", "--observer", "coach")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertIn("coach.permissions.p7s", made.stdout)
+        again = run("keys", "--out", keys, "--domain", "7")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("holds a team's keys", again.stderr)
+
+    def test_wrong_uses_of_keys(self):
+        for words in (["--domain", "233"], ["--days", "0"], ["--skip", "a/b"], ["--observer", "skip"]):
+            refused = run("keys", "--out", os.path.join(self.folder.name, "none"), *words)
+            self.assertEqual(refused.returncode, 2, words)
+
+    def test_a_rig_without_a_link(self):
+        refused = run("link", "--rig", RIG)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("link", refused.stderr)
+
+    def test_alone_on_the_link(self):
+        with open(RIG, encoding="utf-8") as f:
+            text = f.read()
+        path = os.path.join(self.folder.name, "skip.yaml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(text + f"\nlink: {{robot: skip, peers: [thrower], domain: {os.getpid() % 200}, interface: lo}}\n")
+        alone = run("link", "--rig", path, "--seconds", "0.2", "--json")
+        self.assertEqual(alone.returncode, 1, alone.stderr)
+        self.assertEqual(json.loads(alone.stdout)["presence"], "not heard")
+
+
 class Pose(unittest.TestCase):
     def test_prints_one_json_object_a_picture(self):
         result = run("pose", "--rig", RIG, "--camera", "near", SCENE, SCENE)
@@ -231,6 +272,60 @@ class Stones(unittest.TestCase):
         self.assertEqual({s["team"] for s in line["stones"]}, {"scarlet", "yellow"})
 
 
+class Far(unittest.TestCase):
+    NAME = os.path.join(SOURCE, "tests/data/far/far-14-001")
+
+    def setUp(self):
+        with open(self.NAME + ".json", encoding="utf-8") as f:
+            self.truth = json.load(f)
+        spec = importlib.util.spec_from_file_location("score", os.path.join(SOURCE, "tests/score.py"))
+        self.score = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(self.score)
+        self.folder = tempfile.TemporaryDirectory()
+        self.rig = os.path.join(self.folder.name, "rig.yaml")
+        with open(self.rig, "w", encoding="utf-8") as f:
+            f.write(self.score.rig(self.truth))
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def far(self, *words):
+        return run("stones", "--rig", self.rig, "--camera", "far", *words, self.NAME + ".jpg")
+
+    def test_the_moving_stone_and_the_heads_correction(self):
+        result = self.far(*self.score.at(self.truth))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        line = json.loads(result.stdout)
+        self.assertEqual(list(line), ["image", "ok", "stones", "correction", "features", "elapsed_ms", "reason"])
+        [stone] = line["stones"]
+        self.assertAlmostEqual(stone["x_m"], self.truth["stones"][0]["x_end"], delta=0.01)
+        self.assertAlmostEqual(stone["y_m"], self.truth["stones"][0]["y_end"], delta=0.06)
+        self.assertEqual(stone["team"], self.truth["stones"][0]["team"])
+        self.assertAlmostEqual(line["correction"]["tilt_deg"], -0.094, delta=0.01)
+        self.assertIn("far_hog_line", line["features"])
+
+    def test_wrong_use_is_told_in_plain_words(self):
+        for words, told in (((), "--at"), (("--at=1,2",), "three numbers"), (("--at=1,2,3,4",), "three numbers"),
+                            (("--at=1,b,3",), "'b' is no number"), (("--at=1,,3",), "no number"),
+                            (("--at=nan,0,0",), "no number"), (("--at=0,500,0",), "100 m"), (("--at=0,0,1e3",), "360"),
+                            (("--at=0,-3,0", "--sequence"), "near camera")):
+            result = self.far(*words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn(told, result.stderr, words)
+            self.assertEqual(result.stdout, "")
+        result = run("stones", "--rig", RIG, "--at=0,-3,0", SCENE)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("far camera", result.stderr)
+
+    def test_a_wrong_place_is_refused_with_the_reason(self):
+        result = self.far("--at=3,-3.3,0")
+        self.assertEqual(result.returncode, 1)
+        line = json.loads(result.stdout)
+        self.assertFalse(line["ok"])
+        self.assertEqual((line["stones"], line["correction"]), ([], None))
+        self.assertIn("how the camera looks", line["reason"])
+
+
 class Draw(unittest.TestCase):
     def test_a_folder_must_be_named(self):
         for words in (("pose", "--rig", RIG, "--camera", "near", "--draw", "", SCENE),
@@ -296,6 +391,53 @@ class Doctor(unittest.TestCase):
         for device in report["devices"]:
             for remark in device["remarks"]:
                 self.assertTrue(remark["what"] and remark["advice"])
+
+
+class Game(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = os.path.join(self.folder.name, "game")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def game(self, *words):
+        return run("game", "--ends", "1", "--out", self.out, *words)
+
+    def test_an_end_is_played_and_written_down(self):
+        result = self.game("--seed", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        events = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual(events[0]["event"], "begin")
+        self.assertEqual(events[-1]["event"], "over")
+        self.assertGreaterEqual(sum(e["event"] == "throw" for e in events), 16)
+        with open(os.path.join(self.out, "game.jsonl"), encoding="utf-8") as f:
+            self.assertEqual(f.read(), result.stdout)
+        with open(os.path.join(self.out, "game.dcl2"), encoding="utf-8") as f:
+            record = [json.loads(line) for line in f]
+        self.assertEqual([e["log"]["cmd"] for e in record[:9]],
+                         ["dc", "meta", "meta", "dc_ok", "dc_ok", "is_ready", "ready_ok", "ready_ok", "new_game"])
+        self.assertEqual(record[-1]["log"], {"cmd": "game_over"})
+        self.assertEqual(record[-2]["log"]["state"]["game_result"]["reason"], "score")
+        self.assertEqual(self.game("--seed", "3").stdout, result.stdout, "the same seed plays the same game")
+
+    def test_a_client_that_never_comes_stops_the_game(self):
+        result = self.game("--team1", "dc:0", "--connect", "1")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("did not connect within 1 s", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["event"], "stopped")
+
+    def test_wrong_uses(self):
+        for words in (["--team0", "dc:70000"], ["--team0", "somebody"], ["--ends", "0"], ["--thinking", "0"],
+                      ["--team0", "dc:0", "--address", "localhost"]):
+            self.assertEqual(self.game(*words).returncode, 2, words)
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = str(taken.getsockname()[1])
+            result = self.game("--team0", "dc:" + port)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("127.0.0.1:" + port, result.stderr)
 
 
 if __name__ == "__main__":

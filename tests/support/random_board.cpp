@@ -122,11 +122,13 @@ class Sight {
   std::size_t stones_ = 0;
 };
 
-void measure_visibility(RandomBoard& board) {
-  const Sight sight(board.scene);
-  const Eigen::Vector3d eye = board.scene.eMc.translation();
-  for (std::size_t i = 0; i < board.stones.size(); ++i) {
-    BoardStone& s = board.stones[i];
+}  // namespace
+
+void measure_visibility(const RandomScene& scene, std::vector<BoardStone>& stones) {
+  const Sight sight(scene);
+  const Eigen::Vector3d eye = scene.eMc.translation();
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    BoardStone& s = stones[i];
     const vision::Bearing bearing = vision::bearing_of({s.x_m, s.y_m}, eye);
     int handle = 0;
     int body = 0;
@@ -147,8 +149,6 @@ void measure_visibility(RandomBoard& board) {
     s.in_sight = sight.pixel_share(s, i);
   }
 }
-
-}  // namespace
 
 RandomBoard random_board(std::uint64_t seed, const BoardMix& mix) {
   Dice dice(seed);
@@ -177,7 +177,7 @@ RandomBoard random_board(std::uint64_t seed, const BoardMix& mix) {
     look.granite = {g, g, 1.03F * g};
     board.scene.exposure.stones.push_back(look);
   }
-  measure_visibility(board);
+  measure_visibility(board.scene, board.stones);
   return board;
 }
 

@@ -31,6 +31,9 @@ struct BoardMix {
   int most_people = 2;
 };
 
+/// What of each stone nothing hides, stones and people of the scene. `stones` are the first of its exposure's.
+void measure_visibility(const RandomScene& scene, std::vector<BoardStone>& stones);
+
 /// The same seed and mix give the same board. Draw its picture with render(board.scene).
 RandomBoard random_board(std::uint64_t seed, const BoardMix& mix = {});
 

@@ -19,6 +19,7 @@ struct StoneCandidate {
   double votes = 0.0;     ///< share of the outline, 0..1
   double handle_votes = 0.0;
   double body_votes = 0.0;
+  double drift_m = 0.16;  ///< a fit that ends farther from `place` is of something else
 };
 
 struct StoneVoteOptions {

@@ -88,9 +88,15 @@ WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int to
   }
 }
 
+WhiteLight WhiteLight::in_smaller(double scale) const {
+  WhiteLight smaller = *this;
+  smaller.scale_ = scale * scale_;
+  return smaller;
+}
+
 std::array<float, 3> WhiteLight::at(double x, double y) const {
-  const double u = std::clamp(x / block_px - 0.5, 0.0, columns_ - 1.0);
-  const double v = std::clamp((y - top_) / block_px - 0.5, 0.0, rows_ - 1.0);
+  const double u = std::clamp(scale_ * x / block_px - 0.5, 0.0, columns_ - 1.0);
+  const double v = std::clamp((scale_ * y - top_) / block_px - 0.5, 0.0, rows_ - 1.0);
   const int c = std::min(static_cast<int>(u), std::max(0, columns_ - 2));
   const int r = std::min(static_cast<int>(v), std::max(0, rows_ - 2));
   const auto fu = static_cast<float>(u - c);

@@ -19,6 +19,9 @@ class WhiteLight {
   /// fills. Precondition: CV_8UC3, not empty.
   WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int top);
 
+  /// The same light of a picture `scale` times smaller (1: as large), the whole of which was averaged.
+  WhiteLight in_smaller(double scale) const;
+
   /// Linear light of white ice at a pixel: blue, green, red; never zero.
   std::array<float, 3> at(double x, double y) const;
 
@@ -26,6 +29,7 @@ class WhiteLight {
   int top_;
   int columns_;
   int rows_;
+  double scale_ = 1.0;  ///< of this picture's pixels, in those that were looked at
   std::vector<std::array<float, 3>> light_;
 };
 

@@ -200,8 +200,8 @@ WideStep step_widely(const std::vector<PlannedSite>& sites, const std::vector<Ca
 }
 
 void step_closely(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurement>& found, const Prior& prior,
-                  CloseStep& step, std::vector<double>& scratch) {
-  step.change.setZero();
+                  CloseStep& step, std::vector<double>& scratch, const ParameterVector& start) {
+  step.change = start;
   step.residual_px.assign(sites.size(), 0.0);
   step.weight.assign(sites.size(), 0.0);
   step.spread_px.clear();

@@ -47,8 +47,10 @@ struct CloseStep {
   double scale = 1.0;                                     ///< robust spread of residual / sigma
   std::array<bool, paint_feature_count> dropped{};        ///< features that do not fit with the rest
 };
+/// The first weights are by the residuals at `start`.
 void step_closely(const std::vector<PlannedSite>& sites, const std::vector<SiteMeasurement>& found, const Prior& prior,
-                  CloseStep& step, std::vector<double>& scratch);
+                  CloseStep& step, std::vector<double>& scratch,
+                  const ParameterVector& start = ParameterVector::Zero());
 
 /// Of the parameters: the scatter of what stretches of features pull, so that errors shared by neighbouring sites count
 /// as they should, plus `shared_px` of error common to each feature.

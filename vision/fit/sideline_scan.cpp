@@ -12,7 +12,6 @@ constexpr double step_m = 0.005;
 constexpr int most_steps = 128;
 constexpr int knot_steps = 5;  // projected exactly; between them the picture is straight to 0.05 px
 constexpr int most_rows = 40;
-constexpr double row_step_m = 0.25;
 constexpr double most_m_per_px = 0.015;  // a row whose pixel covers more than this across can not tell
 constexpr double ice_m = 0.06;           // each row begins with this much ice
 constexpr double beyond_m = 0.08;        // and ends with this much beyond the range
@@ -119,12 +118,12 @@ Sideline scan_sideline(const PictureLight& light, const SheetCamera& camera, dou
   found.is_line = as_line;
   const double begin_m = range.begin_m - ice_m;
   const int steps = std::min(most_steps, static_cast<int>((range.end_m + beyond_m + most_paint_m - begin_m) / step_m));
-  const double y0 = camera.eMc().translation().y();
+  const double y0 = camera.eMc().translation().y() + range.first_row_m;
   Stretches stretches;
   Row row;
   int rows = 0;
   for (int k = 0; k < 60 && rows < most_rows; ++k) {
-    if (!read_row(light, camera, side, y0 + k * row_step_m, begin_m, steps, row)) continue;
+    if (!read_row(light, camera, side, y0 + k * range.row_step_m, begin_m, steps, row)) continue;
     ++rows;
     collect(row, steps, begin_m, as_line, stretches);
   }

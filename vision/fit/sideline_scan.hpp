@@ -8,10 +8,12 @@
 
 namespace hogline::vision {
 
-/// Between which distances the inner edge is looked for.
+/// Between which distances the inner edge is looked for, and in which rows of the sheet.
 struct ScanRange {
   double begin_m;
   double end_m;
+  double first_row_m = 0.0;  ///< beyond the camera, along the sheet
+  double row_step_m = 0.25;
 };
 
 /// The innermost line or divider that many rows show on one side (-1 left, 1 right). `known == false` when there is

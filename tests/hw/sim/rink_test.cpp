@@ -174,6 +174,46 @@ TEST(Rink, a_scripted_throw_goes_through_every_bus) {
   EXPECT_GT(truth.stone.y_m, 25.0);
 }
 
+TEST(Rink, a_stone_set_down_in_the_hack_is_gripped_again_and_not_delivered) {
+  Program program(scenario_of(3));
+  ASSERT_TRUE(program.step_until([&] { return program.gripper.state().jaws == JawState::holding; }, 1s));
+  const auto& truth = program.rink.truth();
+  const double y_m = truth.stone.y_m;
+  for (int i = 0; i < 3; ++i) {
+    program.gripper.release();
+    program.gripper.step(program.rink.now());
+    const Stamp ordered = program.rink.now();
+    ASSERT_TRUE(program.step_until([&] { return program.gripper.state().freed_at >= ordered; }, 1s));
+    ASSERT_TRUE(truth.set_down);
+    EXPECT_FALSE(truth.held);
+    EXPECT_NEAR(seconds(*program.gripper.state().freed_at - *truth.set_down), 0.0, 0.003)
+        << "by its own report, in whole counts";
+    program.gripper.grip();
+    ASSERT_TRUE(program.step_until([&] { return program.gripper.state().jaws == JawState::holding; }, 2s));
+    program.step();
+    EXPECT_TRUE(truth.held);
+    EXPECT_FALSE(truth.set_down);
+  }
+  EXPECT_FALSE(truth.release);
+  EXPECT_FALSE(truth.burned);
+  EXPECT_EQ(truth.stone.y_m, y_m);
+  deliver(program);
+  ASSERT_TRUE(truth.release) << "and is then delivered as any other";
+  EXPECT_EQ(program.faults(), "");
+}
+
+TEST(Rink, jaws_that_close_beside_the_stone_close_on_nothing) {
+  Program program(scenario_of(3));
+  program.gripper.release();
+  ASSERT_TRUE(program.step_until([&] { return program.rink.truth().set_down.has_value(); }, 1s));
+  ASSERT_TRUE(program.boot_and_enable()) << program.faults();
+  program.ramp_to(-2.0, 4.0);  // the robot backs off
+  program.ramp_to(0.0, 4.0);
+  program.gripper.grip();
+  ASSERT_TRUE(program.step_until([&] { return program.gripper.state().jaws == JawState::closed_empty; }, 3s));
+  EXPECT_FALSE(program.rink.truth().held);
+}
+
 TEST(Rink, measured_wheels_and_gyro_agree_with_the_truth) {
   Program program(scenario_of(3));
   ASSERT_TRUE(program.boot_and_enable()) << program.faults();

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
 
 #include "src/campaign/plots.hpp"
+#include "src/campaign/resting_plot.hpp"
 
 namespace hogline::campaign {
 namespace {
@@ -70,12 +71,14 @@ TEST(Summary, tells_where_tee_draws_rest) {
   EXPECT_NEAR(s.along_m.mean, 0.2, 1e-9);
   EXPECT_NEAR(s.across_m.mean, 0.0, 1e-9);
   EXPECT_NE(markdown(s).find("| along | 2 | 0.200 |"), std::string::npos) << markdown(s);
+  EXPECT_GT(cv::norm(resting_places(rows), resting_places({}), cv::NORM_INF), 100.0) << "points are drawn";
 }
 
 TEST(Summary, of_no_throw_can_be_written_and_drawn) {
   EXPECT_FALSE(markdown(summarise({}, false)).empty());
   EXPECT_FALSE(json(summarise({}, false)).empty());
   EXPECT_FALSE(distributions({}).empty());
+  EXPECT_FALSE(resting_places({}).empty());
 }
 
 }  // namespace

@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <vector>
+
+#include "src/config/config_error.hpp"
+#include "src/faults/strike_journal.hpp"
 
 namespace hogline::faults {
 namespace {
@@ -29,12 +34,39 @@ TEST(RandomFaults, the_same_seed_gives_the_same_table_whatever_the_jobs) {
   const std::vector<const Case*> chosen{*silence};
   const auto alone = strike_at_random(chosen, 3, 7, 1, {});
   int ticks = 0;
-  const auto together = strike_at_random(chosen, 3, 7, 2, [&] { ++ticks; });
+  const auto together = strike_at_random(chosen, 3, 7, 2, [&](const auto&, const auto&) { ++ticks; });
   EXPECT_EQ(ticks, 3);
   EXPECT_EQ(strikes_csv(alone), strikes_csv(together));
   EXPECT_EQ(strikes_page(alone), strikes_page(together));
   EXPECT_NE(alone[0].moment.seed, alone[1].moment.seed);
   EXPECT_TRUE(safe(alone));
+}
+
+TEST(RandomFaults, a_campaign_that_was_stopped_goes_on_where_it_was) {
+  const auto all = faults_of_any_moment();
+  const std::vector<const Case*> chosen{all[0], all[1]};
+  const std::string path = testing::TempDir() + "strikes.jsonl";
+  std::filesystem::remove(path);
+  std::string whole;
+  {
+    StrikeJournal journal(path, chosen, 7, "a");
+    const auto strikes = strike_at_random(
+        chosen, 2, 7, 1, [&](const auto& place, const auto& strike) { journal.append(place, strike); });
+    whole = strikes_page(strikes);
+  }
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);  // killed while it wrote
+  StrikeJournal journal(path, chosen, 7, "a");
+  EXPECT_EQ(journal.known().size(), 3U);
+  int struck = 0;
+  const auto strikes = strike_at_random(
+      chosen, 2, 7, 1, [&](const auto&, const auto&) { ++struck; }, journal.known());
+  EXPECT_EQ(struck, 1);
+  EXPECT_EQ(strikes_page(strikes), whole);
+
+  EXPECT_THROW(StrikeJournal(path, chosen, 8, "a"), config::ConfigError) << "another seed";
+  EXPECT_THROW(StrikeJournal(path, chosen, 7, "b"), config::ConfigError) << "another build";
+  std::ofstream(path, std::ios::app) << "rubbish\n";
+  EXPECT_THROW(StrikeJournal(path, chosen, 7, "a"), config::ConfigError);
 }
 
 TEST(RandomFaults, one_unsafe_ending_is_unsafe) {

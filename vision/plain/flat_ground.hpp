@@ -3,13 +3,14 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core/matx.hpp>
 #include <optional>
 
-#include "tests/bench/method.hpp"
+#include "vision/geometry/pose.hpp"
 
-namespace hogline::bench {
+namespace hogline::vision::plain {
 
 /// A line on the ice, from b's origin. `slope_rad` is its direction from straight ahead (along) or from straight to the
 /// right (across), counter-clockwise positive; `intercept_m` how far it passes ahead (across) or to the right (along).
@@ -21,11 +22,11 @@ struct GroundLine {
 
 class FlatGround {
  public:
-  FlatGround(const Camera& camera, const cv::Matx33d& K) {
+  FlatGround(const Mount& mount, const cv::Matx33d& K) {
     // g: x to the right of the body, y ahead of it.
-    vision::Pose bMg = vision::Pose::Identity();
+    Pose bMg = Pose::Identity();
     bMg.linear() << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
-    const vision::Pose cMg = vision::bMc(camera.mount).inverse() * bMg;
+    const Pose cMg = bMc(mount).inverse() * bMg;
     Eigen::Matrix3d k;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) k(r, c) = K(r, c);
@@ -73,4 +74,4 @@ class FlatGround {
   Eigen::Vector3d horizon_;  ///< positive on pixels that show ice
 };
 
-}  // namespace hogline::bench
+}  // namespace hogline::vision::plain

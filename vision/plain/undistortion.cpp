@@ -1,17 +1,13 @@
-#include "tests/bench/undistortion.hpp"
+#include "vision/plain/undistortion.hpp"
 
-#include <cassert>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/bench/processor_time.hpp"
+namespace hogline::vision::plain {
 
-namespace hogline::bench {
-
-Undistortion::Undistortion(const vision::Intrinsics& k)
-    : matrix_(k.fx_px, 0.0, k.cx_px, 0.0, k.fy_px, k.cy_px, 0.0, 0.0, 1.0) {
+Undistortion::Undistortion(const Intrinsics& k) : matrix_(k.fx_px, 0.0, k.cx_px, 0.0, k.fy_px, k.cy_px, 0.0, 0.0, 1.0) {
   const cv::Size size(k.width_px, k.height_px);
-  if (k.model == vision::LensModel::kannala_brandt) {
+  if (k.model == LensModel::kannala_brandt) {
     const cv::Vec4d d(k.distortion[0], k.distortion[1], k.distortion[2], k.distortion[3]);
     cv::fisheye::initUndistortRectifyMap(matrix_, d, cv::noArray(), matrix_, size, CV_16SC2, map_, map_fraction_);
   } else {
@@ -20,11 +16,9 @@ Undistortion::Undistortion(const vision::Intrinsics& k)
   }
 }
 
-const cv::Mat& Undistortion::apply(const cv::Mat& image, double& spent_s) {
-  const double begin_s = processor_time_s();
+const cv::Mat& Undistortion::apply(const cv::Mat& image) {
   cv::remap(image, undistorted_, map_, map_fraction_, cv::INTER_LINEAR);
-  spent_s += processor_time_s() - begin_s;
   return undistorted_;
 }
 
-}  // namespace hogline::bench
+}  // namespace hogline::vision::plain

@@ -9,10 +9,12 @@
 #include <memory>
 #include <opencv2/core/matx.hpp>
 #include <optional>
+#include <utility>
 
-#include "tests/bench/method.hpp"
+#include "vision/geometry/pose.hpp"
+#include "vision/plain/painted_line.hpp"
 
-namespace hogline::bench {
+namespace hogline::vision::plain {
 
 inline constexpr int margin_px = 20;  // ViSP's sites need their range and mask inside the picture
 
@@ -35,7 +37,7 @@ struct FlatCamera {
   cv::Matx33d K;
   cv::Size size;
 
-  std::optional<Eigen::Vector2d> pixel(const vision::Pose& cMe, const Eigen::Vector2d& e) const {
+  std::optional<Eigen::Vector2d> pixel(const Pose& cMe, const Eigen::Vector2d& e) const {
     const Eigen::Vector3d c = cMe * Eigen::Vector3d(e.x(), e.y(), 0.0);
     if (c.z() < 0.2) return std::nullopt;
     return Eigen::Vector2d(K(0, 0) * c.x() / c.z() + K(0, 2), K(1, 1) * c.y() / c.z() + K(1, 2));
@@ -51,7 +53,7 @@ struct Visible {
   Eigen::Vector2d b;
 };
 
-inline std::optional<Visible> visible_part(const FlatCamera& camera, const vision::Pose& cMe, const PaintedLine& line) {
+inline std::optional<Visible> visible_part(const FlatCamera& camera, const Pose& cMe, const PaintedLine& line) {
   const int steps = static_cast<int>((line.end - line.begin).norm() / 0.05);
   std::optional<Visible> part;
   for (int i = 0; i <= steps; ++i) {
@@ -76,7 +78,7 @@ class TrackedLine {
 
   const PaintedLine& painted() const { return line_; }
 
-  void start(const vpImage<unsigned char>& picture, const FlatCamera& camera, const vision::Pose& cMe) {
+  void start(const vpImage<unsigned char>& picture, const FlatCamera& camera, const Pose& cMe) {
     tracker_.reset();
     const auto part = visible_part(camera, cMe, line_);
     if (!part) return;
@@ -101,7 +103,7 @@ class TrackedLine {
   bool tracked() const { return tracked_line().has_value(); }
 
   // From where the pose has the line's ends in the picture; 0 where it is not tracked or not in view.
-  double distance(const FlatCamera& camera, const vision::Pose& cMe) const {
+  double distance(const FlatCamera& camera, const Pose& cMe) const {
     const auto line = tracked_line();
     const auto part = visible_part(camera, cMe, line_);
     if (!line || !part) return 0.0;
@@ -127,4 +129,4 @@ class TrackedLine {
   std::unique_ptr<vpMeLine> tracker_;
 };
 
-}  // namespace hogline::bench
+}  // namespace hogline::vision::plain

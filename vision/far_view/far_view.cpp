@@ -1,0 +1,206 @@
+#include "vision/far_view/far_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/far_view/far_verdict.hpp"
+#include "vision/far_view/far_view_impl.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double first_y_m = -2.4;     // behind the back line
+constexpr double beyond_hog_m = 2.5;   // beyond the far hog line: still in the thrower's hand
+constexpr double beside_m = 0.05;      // its centre beyond the sideline by more: a neighbour's
+constexpr double look_around_m = 0.3;  // places of votes are good to a pixel or two
+constexpr double near_drift_m = 0.16;
+constexpr double drift_px = 2.5;
+constexpr double far_hiding_m =
+    3.0;  // a stone hides what stands behind it for so far: 0.2 m of it, seen from 2 m at 30 m
+
+constexpr double least_height_m = 0.5;  // of the camera: a stone must be seen from above
+constexpr double grip_top_m = 0.20;     // over the ice
+constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
+
+}  // namespace
+
+ScreeningOptions careful_screening() {
+  ScreeningOptions options;
+  options.hiding_m = far_hiding_m;
+  return options;
+}
+
+ScreeningOptions quick_screening() {
+  ScreeningOptions options = careful_screening();
+  options.all = {.iterations = 2, .pixels = 130};
+  return options;
+}
+
+std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics, const FarPlan& plan) {
+  if (image.empty()) return "the picture is empty";
+  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
+  if (image.cols != intrinsics.width_px || image.rows != intrinsics.height_px) {
+    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
+           std::to_string(intrinsics.width_px) + "x" + std::to_string(intrinsics.height_px);
+  }
+  if (!is_finite(plan.eMc) || !(plan.eMc.translation().z() > least_height_m)) {
+    return "the plan puts the camera nowhere above the ice";
+  }
+  return {};
+}
+
+FarArea::FarArea(const FarAim& aim, std::optional<double> planned_width_m, double nominal_width_m) {
+  const double half_m = 0.5 * planned_width_m.value_or(nominal_width_m);
+  left_m_ = right_m_ = half_m;
+  // One sideline tells of the other: the centre line runs in the middle.
+  if (aim.sidelines[0].known) left_m_ = right_m_ = aim.sidelines[0].edge_m;
+  if (aim.sidelines[1].known) right_m_ = aim.sidelines[1].edge_m;
+  if (aim.sidelines[1].known && !aim.sidelines[0].known) left_m_ = right_m_;
+  whole_.half_width_m = std::max(left_m_, right_m_) + beside_m;
+  whole_.min_y_m = first_y_m;
+  whole_.max_y_m = rules::tee_to_tee_m - rules::tee_to_hog_m + beyond_hog_m;
+}
+
+bool FarArea::contains(const Eigen::Vector2d& place) const {
+  return whole_.contains(place) && place.x() > -left_m_ - beside_m && place.x() < right_m_ + beside_m;
+}
+
+double drift_m(const Eigen::Vector2d& place, const SheetCamera& camera) {
+  const Eigen::Vector3d eye = camera.eMc().translation();
+  const double range_m = (place - eye.head<2>()).norm();
+  return std::max(near_drift_m, drift_px * range_m * range_m / (camera.lens().intrinsics().fy_px * eye.z()));
+}
+
+void report_aim(const FarAim& aim, FarPercept& seen) {
+  seen.correction = aim.correction;
+  seen.eMc = row_major(aim.eMc);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) seen.covariance[static_cast<std::size_t>(6 * i + j)] = aim.covariance(i, j);
+  }
+  for (int i = 0; i < 3; ++i) seen.camera_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(aim.covariance(i, i));
+  seen.residual_px = aim.residual_px;
+  seen.sites_used = aim.sites_used;
+  seen.sites_tried = aim.sites_tried;
+  seen.features = aim.features;
+}
+
+int first_row(const FarArea& area, const SheetCamera& camera) {
+  const auto farthest = camera.project({0.0, area.whole().max_y_m, grip_top_m});
+  return farthest ? std::max(0, static_cast<int>(farthest->y()) - rows_above) : 0;
+}
+
+FarView::Impl::Impl(const FarSetup& given, const ScreeningOptions& options)
+    : setup(given),
+      response(given.camera.gamma),
+      sheet(given.camera),
+      levels(given.camera.intrinsics),
+      screening(options) {}
+
+FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
+  FarPercept seen;
+  seen.stamp = stamp;
+  seen.reason = unusable(image, setup.camera.intrinsics, plan);
+  if (!seen.reason.empty()) return seen;
+
+  const PictureLight light{{image.data, image.cols, image.rows, image.channels(), image.step[0]}, response};
+  const FarAim& aim = sheet.find(light, plan);
+  if (!aim.ok) {
+    seen.reason = "how the camera looks: " + aim.reason;
+    return seen;
+  }
+  report_aim(aim, seen);
+
+  const FarArea area = area_of(aim, plan);
+  begin(image, aim.eMc, area);
+  const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}}, area);
+
+  report(stones, seen);
+  if (sketch == nullptr) return seen;
+  for (const JudgedStone& s : stones) {
+    const auto pixel = levels[0].camera->project({s.fit.place.x(), s.fit.place.y(), setup.shape.handle_height_m});
+    if (pixel) sketch->candidates.push_back({{pixel->x(), pixel->y()}, s.fit.place.x(), s.fit.place.y(), s.doubt});
+  }
+  return seen;
+}
+
+FarArea FarView::Impl::area_of(const FarAim& aim, const FarPlan& plan) const {
+  return {aim, plan.sheet_width_m, setup.camera.sheet.width_m};
+}
+
+void FarView::Impl::begin(const cv::Mat& image, const Pose& eMc, const FarArea& area) {
+  const SheetCamera camera(*levels[0].lens, eMc, setup.camera.ice);
+  levels.begin(image, first_row(area, camera), response, eMc, setup.camera.ice);
+}
+
+const std::vector<FarPlace>& FarView::Impl::scan_part(const FarArea& area, const FarScan::Part& part) {
+  return scan.find(levels.middle().picture(response, setup.shape), area.whole().wider(look_around_m), part);
+}
+
+// Candidates of the places that are to be looked at on this level.
+const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vector<FarPlace>& places,
+                                                       const FarArea& area) {
+  candidates.clear();
+  const StonePicture picture = levels[level].picture(response, setup.shape);
+  const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
+  centres.create(picture.bgr.rows / 2, picture.bgr.cols / 2, CV_8UC1);
+  centres.setTo(0);
+  cv::Rect marked;
+  for (const FarPlace& place : places) {
+    if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
+    marked |= mark_for_votes(scale * place.pixel, scale * place.half_width_px, centres);
+  }
+  if (marked.empty()) return candidates;
+  const StoneGroups rows{{}, centres.rowRange(marked.y, marked.br().y), 2 * marked.y};
+  candidates = voter.find(picture, rows, {.area = area.whole().wider(look_around_m)});
+  for (StoneCandidate& c : candidates) c.drift_m = drift_m(c.place, picture.camera);
+  return candidates;
+}
+
+// Level by level, near stones first: they may hide those behind.
+std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, const FarArea& area) {
+  std::vector<JudgedStone> all;
+  std::vector<NearerStone> nearer;
+  const Eigen::Vector2d eye = levels[0].camera->eMc().translation().head<2>();
+  for (int level = FarLevels::count - 1; level >= 0; --level) {
+    const StonePicture picture = levels[level].picture(response, setup.shape);
+    std::vector<JudgedStone> stones = screening.judge(picture, vote(level, search.places, area), nearer);
+    for (const JudgedStone& s : search.stones) {
+      const double range_m = (s.fit.place - eye).norm();
+      if (FarLevels::level_at(range_m, setup.camera.intrinsics) == level) stones.push_back(s);
+    }
+    if (stones.empty()) continue;
+    screening.refine(picture, stones, nearer);
+
+    std::vector<NearerStone> standing = nearer;
+    for (const JudgedStone& s : stones) {
+      if (s.doubt.empty()) standing.push_back({s.fit.place, s.fit.handle});
+    }
+    for (JudgedStone& s : stones) {
+      if (s.doubt.empty()) s.doubt = doubt_of_surroundings(picture, s, standing);
+      if (s.doubt.empty()) nearer.push_back({s.fit.place, s.fit.handle});
+      if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
+    }
+    all.insert(all.end(), stones.begin(), stones.end());
+  }
+  return all;
+}
+
+void FarView::Impl::report(const std::vector<JudgedStone>& stones, FarPercept& seen) const {
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, setup.teams));
+  }
+  seen.candidates = static_cast<int>(stones.size());
+  seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
+  seen.ok = true;
+}
+
+FarView::FarView(const FarSetup& setup) : impl_(std::make_unique<Impl>(setup, careful_screening())) {}
+FarView::~FarView() = default;
+FarView::FarView(FarView&&) noexcept = default;
+FarView& FarView::operator=(FarView&&) noexcept = default;
+
+FarPercept FarView::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
+  return impl_->look(image, stamp, plan, sketch);
+}
+
+}  // namespace hogline::vision
