@@ -35,7 +35,7 @@ std::vector<JudgedStone> StoneScreening::judge(const StonePicture& picture,
                                                const std::vector<NearerStone>& nearer) {
   std::vector<JudgedStone> stones = screen(picture, candidates, nearer);
   compare_granite(stones);
-  part_overlapping(stones);
+  part_overlapping(picture, stones);
   doubt_grips(stones, picture.eye(), picture.shape);
   return stones;
 }
@@ -53,7 +53,7 @@ std::vector<JudgedStone> StoneScreening::screen(const StonePicture& picture,
       stones.back().fit.place = c.place;
       continue;
     }
-    fitter_.begin(picture, {c.place}, options_.first);
+    fitter_.begin(picture, {{c.place}}, options_.first);
     if (is_hopeless(fitter_.first_granite())) {
       stones.push_back({c, FittedStone(), "its colours are no stone's"});
       stones.back().fit.place = c.place;
@@ -85,7 +85,7 @@ std::vector<NearerStone> StoneScreening::look_behind(const StonePicture& picture
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() || is_taken(s.candidate.place, stones)) continue;
     if (!may_be_hidden(s.candidate.place, newest, eye)) continue;
-    fitter_.begin(picture, {s.candidate.place}, options);
+    fitter_.begin(picture, {{s.candidate.place}}, options);
     s.fit = fitter_.run().stones[0];
     s.doubt = doubt_of(s.candidate, s.fit, true);
     if (s.doubt.empty()) found.push_back({s.fit.place, s.fit.handle});
@@ -96,9 +96,9 @@ std::vector<NearerStone> StoneScreening::look_behind(const StonePicture& picture
 // All together: stones that hide each other, and the shape they share.
 void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone>& stones,
                             const std::vector<NearerStone>& nearer) {
-  std::vector<Eigen::Vector2d> starts;
+  std::vector<StoneStart> starts;
   for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) starts.push_back(s.fit.place);
+    if (s.doubt.empty()) starts.push_back({s.fit.place});
   }
   StoneFitOptions options = options_.all;
   options.nearer = nearer;
@@ -113,7 +113,7 @@ void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone
     s.doubt = doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
   }
   compare_granite(stones);
-  part_overlapping(stones);
+  part_overlapping(picture, stones);
   doubt_grips(stones, picture.eye(), picture.shape);
 }
 

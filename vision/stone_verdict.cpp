@@ -27,8 +27,15 @@ constexpr double grip_half_m = 0.06;     // across: half a bar
 constexpr double grip_reach_m = 0.16;    // along: a little height is much range
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
-constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.28 m apart
-constexpr double same_rock = 2.0;          // factor of brightness between two of a club's stones
+constexpr double most_drift_m = 0.16;
+constexpr int fewest_telling = 12;     // pixels that a stone changes
+constexpr int fewest_handle_told = 5;  // of those that are as foretold, on the handle
+constexpr double least_told = 0.75;
+constexpr double least_told_alone = 0.80;  // of a stone in full view 0.91 and more
+constexpr double well_explained_glimpse = 0.90;
+constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.29 m apart
+constexpr double most_pixel_m = 0.08;
+constexpr double same_rock = 2.0;  // factor of brightness between two of a club's stones
 
 double brightness(const Light& light) { return 0.114 * light[0] + 0.587 * light[1] + 0.299 * light[2]; }
 
@@ -73,10 +80,39 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
   const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
   if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
+  if (fit.telling > 0 && fit.told < least_told_alone) return "what is seen is not a stone's";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
-  if ((fit.place - candidate.place).norm() > candidate.drift_m) return "the fit left the place of the votes";
+  if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};
+}
+
+std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite) {
+  if (!fit.ok) return fit.reason;
+  if (fit.telling < fewest_telling) return "too little of it can be seen";
+  if (fit.told < least_told || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
+  if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
+  if (!is_coloured(fit.handle)) return "its handle has no colour";
+  if ((fit.granite - granite).norm() > 0.6 * granite.norm()) {
+    return "its granite is not the others'";
+  }
+  if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
+  return {};
+}
+
+std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones) {
+  Light middle;
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<double> lights;
+    for (const JudgedStone& s : stones) {
+      if (s.doubt.empty() && s.fit.granite_pixels >= least_granite_pixels) lights.push_back(s.fit.granite[channel]);
+    }
+    if (lights.empty()) return std::nullopt;
+    const auto at = lights.begin() + static_cast<std::ptrdiff_t>(lights.size() / 2);
+    std::nth_element(lights.begin(), at, lights.end());
+    middle[channel] = *at;
+  }
+  return middle;
 }
 
 void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape) {
@@ -100,10 +136,19 @@ bool is_hopeless(const Light& granite) {
   return light < 0.5 * darkest_granite || light > 1.35 * lightest_granite;
 }
 
-void part_overlapping(std::vector<JudgedStone>& stones) {
+bool stand_in_one_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const StonePicture& picture) {
+  const Eigen::Vector3d eye = picture.eye();
+  const Bearing bearing = bearing_of(0.5 * (a + b), eye);
+  const double per_radian_m = bearing.range_m * bearing.range_m / (eye.z() - picture.shape.handle_height_m);
+  const double pixel_m = std::min(most_pixel_m, per_radian_m / picture.camera.lens().intrinsics().fy_px);
+  return std::hypot((a - b).dot(bearing.right), std::abs((a - b).dot(bearing.away)) + pixel_m) < least_distance_m;
+}
+
+void part_overlapping(const StonePicture& picture, std::vector<JudgedStone>& stones) {
   for (std::size_t i = 0; i < stones.size(); ++i) {
     for (std::size_t j = i + 1; j < stones.size() && stones[i].doubt.empty(); ++j) {
-      if (!stones[j].doubt.empty() || (stones[i].fit.place - stones[j].fit.place).norm() > least_distance_m) continue;
+      if (!stones[j].doubt.empty()) continue;
+      if (!stand_in_one_place(stones[i].fit.place, stones[j].fit.place, picture)) continue;
       JudgedStone& worse = quality(stones[i]) < quality(stones[j]) ? stones[i] : stones[j];
       worse.doubt = "another stone stands there";
     }

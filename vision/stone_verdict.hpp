@@ -1,6 +1,7 @@
 // Is it a stone? What a fit of handle and granite must look like to be believed.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace hogline::vision {
 struct JudgedStone {
   StoneCandidate candidate;
   FittedStone fit;
-  std::string doubt;  ///< empty: a stone; else why it is none
+  std::string doubt;      ///< empty: a stone; else why it is none
+  bool glimpsed = false;  ///< judged with the club's granite known
 };
 
 /// Why a fitted candidate is no stone, by itself: its "granite" is not grey or too dark or too light, its "handle" is
@@ -21,11 +23,20 @@ struct JudgedStone {
 /// `behind_another`: a nearer stone may hide its body, which then need not be seen.
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another);
 
+/// The same of what was fitted with the club's granite known: parts may be hidden, what is left must be a stone's.
+std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite);
+
+/// The middle one of what the believed stones show of it, channel by channel; nothing where none does.
+std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones);
+
 /// The granite's colour at the place of the votes alone says that no fit will make a stone of it.
 bool is_hopeless(const Light& granite);
 
-/// Two stones can not stand in one place: of those nearer than a stone's breadth the better keeps it. Marks the others.
-void part_overlapping(std::vector<JudgedStone>& stones);
+/// Nearer than two stones can stand, even if they were a pixel farther apart along the line of sight: 7 cm far away.
+bool stand_in_one_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const StonePicture& picture);
+
+/// Of those that stand in one place the better keeps it. Marks the others.
+void part_overlapping(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
 /// What shows no granite and stands where a nearer stone's grip is seen may be that grip: marks it. `eye` in e.
 void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, const StoneShape& shape);

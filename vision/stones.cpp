@@ -1,9 +1,14 @@
 #include "vision/stones.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "vision/crowd_screening.hpp"
 #include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/detect/white_light.hpp"
-#include "vision/stone_screening.hpp"
+#include "vision/fit/stone_fit.hpp"
+#include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -20,17 +25,21 @@ struct StoneFinder::Impl {
       : setup(stones_setup),
         lens(stones_setup.camera.intrinsics),
         response(stones_setup.camera.gamma),
-        groups(stones_setup.camera, stones_setup.shape) {}
+        groups(stones_setup.camera, stones_setup.shape),
+        screening(stones_setup.teams) {}
 
   std::string unusable(const cv::Mat& image) const;
   StoneArea area(std::optional<double> sheet_width_m) const;
+  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
+  StoneSighting sighting(const JudgedStone& stone) const;
 
   StonesSetup setup;
   Lens lens;
   ResponseCurve response;
   StoneGroupFinder groups;
   StoneVoter voter;
-  StoneScreening screening;
+  CrowdScreening screening;
+  StoneFitter fitter;
 };
 
 StoneFinder::StoneFinder(const StonesSetup& setup) : impl_(std::make_unique<Impl>(setup)) {}
@@ -53,18 +62,26 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const std::vector<StoneCandidate>& candidates =
       impl_->voter.find(picture, groups, {.area = area.wider(look_around_m)});
 
-  std::vector<JudgedStone> stones = impl_->screening.judge(picture, candidates);
-  impl_->screening.refine(picture, stones);
+  std::vector<JudgedStone> stones = impl_->screening.look(picture, candidates);
+  compare_granite(stones);
+  impl_->screening.tell_apart(picture, stones);
+  part_overlapping(picture, stones);
+  impl_->screening.look_again(picture, stones);
+  part_overlapping(picture, stones);
+
+  impl_->refine(picture, stones);
+  compare_granite(stones);
+  part_overlapping(picture, stones);
 
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
+    if (s.doubt.empty()) seen.stones.push_back(impl_->sighting(s));
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
   seen.groups = static_cast<int>(groups.boxes.size());
-  seen.candidates = static_cast<int>(candidates.size());
+  seen.candidates = static_cast<int>(stones.size());
   seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
   return seen;
 }
@@ -87,6 +104,43 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;
   area.max_y_m = rules::tee_to_hog_m + behind_hog_m;
   return area;
+}
+
+// All together: stones that hide each other, and the shape they share.
+void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  const auto granite = clubs_granite(stones);
+  std::vector<StoneStart> starts;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt});
+  }
+  fitter.begin(picture, starts, {});
+  const StoneFitResult& result = fitter.run();
+  std::size_t next = 0;
+  std::vector<NearerStone> others;
+  for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty()) continue;
+    s.fit = result.stones[next++];
+    s.doubt = s.glimpsed && granite
+                  ? doubt_of_glimpse(s.candidate, s.fit, *granite)
+                  : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
+  }
+}
+
+StoneSighting StoneFinder::Impl::sighting(const JudgedStone& stone) const {
+  StoneSighting s;
+  s.x_m = stone.fit.place.x();
+  s.y_m = stone.fit.place.y();
+  s.covariance = {stone.fit.covariance(0, 0), stone.fit.covariance(0, 1), stone.fit.covariance(1, 1)};
+  s.colour = {static_cast<float>(stone.fit.handle[2]), static_cast<float>(stone.fit.handle[1]),
+              static_cast<float>(stone.fit.handle[0])};
+  const TeamVerdict team = team_of(s.colour, setup.teams);
+  s.team = team.team;
+  s.team_confidence = team.confidence;
+  s.support = stone.candidate.votes;
+  s.visible = stone.fit.visible;
+  s.residual = stone.fit.residual;
+  return s;
 }
 
 }  // namespace hogline::vision

@@ -21,6 +21,7 @@ namespace {
 using hogline::testing::RandomBoard;
 using Places = std::vector<Eigen::Vector2d>;
 
+constexpr double least_in_sight = 0.5;  // of its pixels, as tests/vision/stones/board_score.hpp asks
 constexpr double cell_m = 0.01;
 constexpr double half_width_m = 2.6;
 constexpr double near_y_m = -2.5;
@@ -123,7 +124,7 @@ struct Score {
   void add(const RandomBoard& board, Places places, double elapsed_ms) {
     ms.push_back(elapsed_ms);
     for (const auto& s : board.stones) {
-      const bool seen = s.handle_seen >= 0.5 && s.handle_seen + s.body_seen >= 0.8;
+      const bool seen = s.in_sight >= least_in_sight;
       const Eigen::Vector2d truth(s.x_m, s.y_m);
       const auto hit = std::find_if(places.begin(), places.end(),
                                     [&](const Eigen::Vector2d& p) { return (p - truth).norm() < 0.12; });

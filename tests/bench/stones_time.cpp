@@ -52,8 +52,8 @@ class Stopwatch {
     const StonePicture picture{bgr_, response_, *ice, camera_, shape_};
     ms[boxes] = elapsed_ms([&] { found_ = groups_.find(bgr_, *ice, response_); });
     ms[votes] = elapsed_ms([&] { voter_.find(picture, found_); });
-    std::vector<Eigen::Vector2d> places;
-    for (const auto& s : seen.stones) places.push_back({s.x_m, s.y_m});
+    std::vector<StoneStart> places;
+    for (const auto& s : seen.stones) places.push_back({{s.x_m, s.y_m}});
     ms[joint_fit] = elapsed_ms([&] {
       fitter_.begin(picture, places, {});
       fitter_.run();

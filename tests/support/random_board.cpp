@@ -82,7 +82,40 @@ class Sight {
     return true;
   }
 
+  /// Share of the pixels in which a stone alone would be seen, that show it. None in the picture: 0.
+  double pixel_share(const BoardStone& stone, std::size_t own) const {
+    const auto centre = camera_.project({stone.x_m, stone.y_m, 0.09});
+    const auto side = camera_.project({stone.x_m, stone.y_m, 0.29});
+    if (!centre || !side) return 0.0;
+    const double reach_px = 1.2 * (*side - *centre).norm() + 3.0;  // 0.2 m and more to each side
+    const double step_px = std::max(1.0, reach_px / 24.0);
+    int covered = 0;
+    int shown = 0;
+    for (double dy = -reach_px; dy <= reach_px; dy += step_px) {
+      for (double dx = -reach_px; dx <= reach_px; dx += step_px) {
+        const Eigen::Vector2d pixel(centre->x() + dx, centre->y() + dy);
+        const auto direction = camera_.lens().ray(pixel);
+        if (!direction) continue;
+        const hw::sim::Ray ray{eye_.cast<float>(), (camera_.eMc().linear() * *direction).cast<float>()};
+        const auto hit = solids_[own].meet(ray);
+        if (!hit) continue;
+        ++covered;
+        shown += camera_.lens().in_picture(pixel) && is_first(ray, hit->distance, own) ? 1 : 0;
+      }
+    }
+    return covered > 0 ? static_cast<double>(shown) / covered : 0.0;
+  }
+
  private:
+  bool is_first(const hw::sim::Ray& ray, float distance, std::size_t own) const {
+    for (std::size_t i = 0; i < solids_.size(); ++i) {
+      if (i == own) continue;
+      const auto hit = solids_[i].meet(ray);
+      if (hit && hit->distance < distance) return false;
+    }
+    return true;
+  }
+
   Eigen::Vector3d eye_;
   vision::SheetCamera camera_;
   std::vector<hw::sim::Solid> solids_;
@@ -113,6 +146,7 @@ void measure_visibility(const RandomScene& scene, std::vector<BoardStone>& stone
     s.handle_seen = static_cast<double>(handle) / points;
     s.rim_seen = static_cast<double>(rim) / points;
     s.body_seen = static_cast<double>(body) / points;
+    s.in_sight = sight.pixel_share(s, i);
   }
 }
 

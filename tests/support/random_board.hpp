@@ -14,6 +14,7 @@ struct BoardStone {
   double x_m = 0.0;  ///< in e
   double y_m = 0.0;
   bool red = false;          ///< else yellow
+  double in_sight = 1.0;     ///< of the pixels that it would cover alone, grip and all, the share that shows it
   double handle_seen = 1.0;  ///< share of the handle's face that nothing else hides
   double rim_seen = 1.0;     ///< the same of its upper rim
   double body_seen = 1.0;    ///< the same of the body's front

@@ -83,11 +83,10 @@ bool draw_body(const Drawing& drawing, StoneOutline& outline) {
 }
 
 void choose_first_marks(StoneOutline& outline) {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < StoneOutline::body_marks; i += 3) outline.first_marks[next++] = outline.body[i];
-  for (std::size_t i = 1; i < StoneOutline::handle_marks; i += 3) {
-    outline.first_marks[next++] = outline.near_edge[i][1];
-    outline.first_marks[next++] = outline.far_rim[i];
+  for (std::size_t i = 0; i < StoneOutline::first_body_marks; ++i) outline.first_body[i] = outline.body[3 * i];
+  for (std::size_t i = 0; i < StoneOutline::first_handle_marks / 2; ++i) {
+    outline.first_handle[2 * i] = outline.near_edge[3 * i + 1][1];
+    outline.first_handle[2 * i + 1] = outline.far_rim[3 * i + 1];
   }
 }
 

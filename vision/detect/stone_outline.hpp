@@ -38,8 +38,11 @@ struct StoneOutline {
   std::array<OutlineMark, handle_marks> far_rim;
   std::array<std::array<OutlineMark, 3>, handle_marks> near_edge;
   std::array<OutlineMark, body_marks> body;
-  std::array<OutlineMark, 11> first_marks;  ///< some of these
-  float half_width_px = 0.0F;               ///< of the handle's outline
+  static constexpr std::size_t first_body_marks = 5;
+  static constexpr std::size_t first_handle_marks = 6;
+  std::array<OutlineMark, first_body_marks> first_body;  ///< some of these
+  std::array<OutlineMark, first_handle_marks> first_handle;
+  float half_width_px = 0.0F;  ///< of the handle's outline
   float half_depth_px = 0.0F;
   float removal_x = 0.0F;  ///< half axes of the ellipse in which no other stone's centre is looked for
   float removal_y = 0.0F;

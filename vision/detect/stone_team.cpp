@@ -41,6 +41,13 @@ Hue hue_of(const std::array<float, 3>& colour) {
 
 }  // namespace
 
+bool has_a_teams_hue(const std::array<float, 3>& colour, const TeamHues& hues) {
+  const Hue hue = hue_of(colour);
+  if (hue.saturation < least_saturation) return false;
+  return std::min(std::abs(wrapped(hue.angle_rad - hues.first_rad)),
+                  std::abs(wrapped(hue.angle_rad - hues.second_rad))) < most_hue_error_rad;
+}
+
 TeamVerdict team_of(const std::array<float, 3>& colour, const TeamHues& hues) {
   const Hue hue = hue_of(colour);
   if (hue.saturation < least_saturation) return {Team::unknown, 1.0 - hue.saturation / least_saturation};

@@ -22,4 +22,7 @@ struct TeamVerdict {
 /// the handle has no colour.
 TeamVerdict team_of(const std::array<float, 3>& colour, const TeamHues& hues);
 
+/// The hue alone could be one of the teams': a pixel is noisier than a handle.
+bool has_a_teams_hue(const std::array<float, 3>& colour, const TeamHues& hues);
+
 }  // namespace hogline::vision

@@ -6,8 +6,9 @@ namespace hogline::vision {
 namespace {
 
 constexpr float first_share = 0.22F;
-constexpr float big_x_px = 12.0F;  // half axes of a handle's outline that is searched in steps of two pixels
-constexpr float big_y_px = 6.0F;
+constexpr float first_handle_share = 0.33F;  // granite on dark paint has hardly an edge
+constexpr float big_x_px = 8.0F;            // half axes of a handle's outline that is searched in steps of two pixels
+constexpr float big_y_px = 4.5F;
 constexpr float handle_share = 0.55F;
 constexpr float handle_alone = 0.70F;
 constexpr float neighbours_may = 0.08F;  // have so many more votes
@@ -32,10 +33,22 @@ const std::vector<StoneCandidate>& StoneVoter::find(const StonePicture& picture,
   const auto least = static_cast<float>(options.least_votes);
   collect(groups, least - neighbours_may);
 
+  sort_ballots();
+  take_peaks(picture, least, options.most_candidates);
+  return candidates_;
+}
+
+void StoneVoter::sort_ballots() {
+  std::sort(ballots_.begin(), ballots_.end(), [](const Ballot& a, const Ballot& b) {
+    return a.sum != b.sum ? a.sum > b.sum : a.y != b.y ? a.y < b.y : a.x < b.x;
+  });
+}
+
+void StoneVoter::take_peaks(const StonePicture& picture, float least, std::size_t most) {
   peaks_.clear();
   candidates_.clear();
   for (const Ballot& ballot : ballots_) {
-    if (candidates_.size() >= options.most_candidates) break;
+    if (candidates_.size() >= most) break;
     if (std::any_of(peaks_.begin(), peaks_.end(), [&](const Ballot& p) { return ballot.removed_by(p); })) continue;
     const Ballot peak = best_near(ballot);
     peaks_.push_back(peak);
@@ -44,7 +57,6 @@ const std::vector<StoneCandidate>& StoneVoter::find(const StonePicture& picture,
     if (!place || peak.sum < least) continue;
     candidates_.push_back({*place, pixel, double{peak.sum}, double{peak.votes.handle}, double{peak.votes.body}});
   }
-  return candidates_;
 }
 
 // Every place where a handle may be; where stones are big every second one in both directions.
@@ -63,9 +75,6 @@ void StoneVoter::collect(const StoneGroups& groups, float least) {
       for (int i = 0; i < columns * rows; ++i) vote(x + i % columns, y + i / columns, least, outline);
     }
   }
-  std::sort(ballots_.begin(), ballots_.end(), [](const Ballot& a, const Ballot& b) {
-    return a.sum != b.sum ? a.sum > b.sum : a.y != b.y ? a.y < b.y : a.x < b.x;
-  });
 }
 
 void StoneVoter::vote(int x, int y, float least, const StoneOutline& outline) {
@@ -80,9 +89,13 @@ void StoneVoter::vote(int x, int y, float least, const StoneOutline& outline) {
 // A few marks on both sides of the body and along the handle's near edge: where hardly any of them stands on an edge
 // the rest are not worth asking.
 bool StoneVoter::worth_asking(const StoneOutline& outline, float x, float y) {
-  float sum = 0.0F;
-  for (const OutlineMark& m : outline.first_marks) sum += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
-  return sum >= first_share * static_cast<float>(outline.first_marks.size());
+  float body = 0.0F;
+  float handle = 0.0F;
+  for (const OutlineMark& m : outline.first_body) body += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+  for (const OutlineMark& m : outline.first_handle) handle += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+  constexpr auto marks = static_cast<float>(StoneOutline::first_body_marks + StoneOutline::first_handle_marks);
+  return body + handle >= first_share * marks ||
+         handle >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks);
 }
 
 StoneVoter::Votes StoneVoter::votes_for(const StoneOutline& outline, float x, float y) {

@@ -54,6 +54,8 @@ class StoneVoter {
   Votes votes_for(const StoneOutline& outline, float x, float y);
   void vote(int x, int y, float least, const StoneOutline& outline);
   void collect(const StoneGroups& groups, float least);
+  void sort_ballots();
+  void take_peaks(const StonePicture& picture, float least, std::size_t most);
   Ballot best_near(const Ballot& peak);
 
   EdgeField field_;

@@ -8,6 +8,12 @@
 #include "vision/fit/stone_model.hpp"
 
 namespace hogline::vision {
+namespace {
+
+constexpr float telling_light = 0.12F;  // a pixel that the stone changes by less tells nothing
+constexpr float foretold_share = 0.5F;  // of that change may be left unexplained
+
+}  // namespace
 
 /// Sums over the pixels: of place and shared numbers, of one part's colours, and what they share.
 struct StoneModel::Equations {
@@ -126,6 +132,31 @@ void StoneModel::summarise(const Pixels& sizes, const Pixels& noise) {
   variance_ = left / (2.0 * count);
   residual_ = weights > 0.0 ? std::sqrt(plain_left / weights) : 0.0;
   explained_ = difference > 0.0 ? 1.0 - left / difference : 0.0;
+  count_told(change);
+}
+
+// Without the weights, which forgive what does not fit.
+void StoneModel::count_told(const PixelColours& change) {
+  const PixelColours model = change - residuals_;
+  const auto squared = [](const PixelColours& p) -> Pixels {
+    return p.col(0).square() + colour_weight * (p.col(1).square() + p.col(2).square());
+  };
+  const Pixels shown = squared(model);
+  const Pixels left = squared(residuals_);
+  telling_ = handle_told_ = granite_told_ = 0;
+  int told = 0;
+  for (Eigen::Index i = 0; i < shown.size(); ++i) {
+    if (!(used_[i] > 0.0F) || shown[i] < telling_light * telling_light) continue;
+    const bool is_told = left[i] < foretold_share * foretold_share * shown[i];
+    const bool on_handle = fine_.handle[i] > 0.5F;
+    if (is_told && on_handle) ++handle_told_;
+    if (grip_[i] > 0.0F) continue;
+    ++telling_;
+    if (!is_told) continue;
+    ++told;
+    if (fine_.granite[i] > 0.5F) ++granite_told_;
+  }
+  told_ = telling_ > 0 ? static_cast<double>(told) / telling_ : 0.0;
 }
 
 }  // namespace hogline::vision

@@ -61,6 +61,10 @@ FittedStone fitted(const StoneModel& s, const SharedMatrix& shared_covariance) {
   f.residual = s.residual();
   f.explained = s.explained();
   f.visible = s.visible();
+  f.telling = s.telling();
+  f.told = s.told();
+  f.handle_told = s.handle_told();
+  f.granite_told = s.granite_told();
   f.handle_contrast = (f.handle - f.granite).norm();
   f.body_contrast = (f.granite - s.behind_colour()).norm();
   const Parts parts(s);
@@ -77,14 +81,17 @@ FittedStone fitted(const StoneModel& s, const SharedMatrix& shared_covariance) {
 
 }  // namespace
 
-void StoneFitter::begin(const StonePicture& picture, const std::vector<Eigen::Vector2d>& starts,
+void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStart>& starts,
                         const StoneFitOptions& options) {
   options_ = options;
   look_ = {};
   look_.shape = picture.shape;
   prior_ = numbers_of(look_);
   stones_.clear();
-  for (const Eigen::Vector2d& start : starts) stones_.emplace_back(picture, look_, start, options.pixels);
+  for (const StoneStart& start : starts) {
+    stones_.emplace_back(picture, look_, start.place, options.pixels);
+    if (start.granite) stones_.back().expect_granite(*start.granite);
+  }
   settle_surroundings();
   for (StoneModel& s : stones_) s.find_colours(look_);
 }

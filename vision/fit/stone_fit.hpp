@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,11 @@ struct FittedStone {
   double explained = 0.0;  ///< share of the picture's difference from the background that the stone explains, 0..1
   double handle_contrast = 0.0;  ///< between handle and granite, in light against white ice
   double body_contrast = 0.0;    ///< between granite and what is behind it
-  double visible = 0.0;          ///< share of the outline that nothing nearer hides
+  int telling = 0;               ///< pixels that the stone changes clearly, and that no nearer stone's grip may cover
+  double told = 0.0;             ///< share of them that are as the stone would have them, 0..1; no pixel is forgiven
+  int handle_told = 0;           ///< pixels of the handle that are as it would have them
+  int granite_told = 0;
+  double visible = 0.0;  ///< share of the outline that nothing nearer hides
 };
 
 struct StoneFitResult {
@@ -39,12 +44,18 @@ struct StoneFitOptions {
   std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
 };
 
+/// Where a stone may stand, and the club's granite where it is known: of what is half hidden it can not be learnt.
+struct StoneStart {
+  Eigen::Vector2d place;
+  std::optional<Light> granite = {};
+};
+
 /// Keeps its memory from fit to fit.
 class StoneFitter {
  public:
   /// Takes up stones at `starts`, within about a pixel and a half of the truth, and finds their colours there. The
   /// picture is used until the next begin().
-  void begin(const StonePicture& picture, const std::vector<Eigen::Vector2d>& starts, const StoneFitOptions& options);
+  void begin(const StonePicture& picture, const std::vector<StoneStart>& starts, const StoneFitOptions& options);
 
   /// The first stone's granite before any step: blue, green, red against white ice.
   Light first_granite() const;

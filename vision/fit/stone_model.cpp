@@ -14,7 +14,7 @@ namespace {
 constexpr float foot_height = -0.3F;  // below it the outline melts into the stone's own shadow
 constexpr float near_foot_px = 2.5F;
 constexpr float shade_px = 8.0F;        // granite darkens downwards: scale of that slope
-constexpr float hidden_px = -2.0F;      // so near to a nearer stone nothing is believed
+constexpr float hidden_px = -1.2F;      // so near to a nearer stone nothing is believed
 constexpr double grip_height_m = 0.06;  // over the handle's rim
 constexpr double neighbour_m = 2.5;     // farther stones hide nothing of each other
 constexpr double abreast_m = 0.33;      // nor do those that are farther apart across the line of sight
@@ -22,6 +22,8 @@ constexpr double most_step_m = 0.06;
 constexpr float fewest_pixels = 40.0F;
 constexpr float plain_granite = 0.85F;  // of a pixel's light
 constexpr int fewest_granite = 8;
+constexpr double rock_weight = 100.0;  // of what is known of the granite: some twenty pixels'
+constexpr double least_grip = 0.2;     // of a grip's colour: the rest is what shines past it
 
 const NormalTable normal_table;
 
@@ -34,6 +36,7 @@ StoneModel::StoneModel(const StonePicture& picture, const SharedLook& look, cons
   const float middle = seen_.count() > 0 ? seen_.y.mean() : 0.0F;
   shade_ = (seen_.y - middle) / shade_px;
   weight_.setOnes(seen_.count());
+  grip_.setZero(seen_.count());
 }
 
 void StoneModel::move(const Eigen::Vector2d& step) {
@@ -56,6 +59,12 @@ StonePlace StoneModel::stands(const SharedLook& look) const {
 void StoneModel::look_behind(const SharedLook& look) {
   vision::look_behind(source_, stands(look), eye_, coloured_ ? handle_colour() : Light::Zero(), seen_);
   behind_ = in_parts(seen_.behind);
+  grip_.setZero(seen_.count());
+}
+
+void StoneModel::expect_granite(const Light& granite) {
+  expected_granite_ = parts_of(granite);
+  granite_weight_ = rock_weight;
 }
 
 void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) {
@@ -73,13 +82,17 @@ void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) 
   const Pixels nearest = handle.px.max(body.px);
   handle_distances(grip, eye_, seen_.sights, handle);
   handle_distances(stands(look), eye_, seen_.sights, handle_);
-  const Eigen::Array3f colour = nearer.handle.cast<float>().array();
+  const Light grips = parts_of(nearer.handle);
+  const bool alike = !coloured_ || likeness(colours_.row(0).transpose(), grips) > 0.5;
   for (Eigen::Index i = 0; i < seen_.count(); ++i) {
     if (nearest[i] > hidden_px) seen_.usable[i] = 0.0F;
-    if (!(handle.px[i] > 0.0F && handle_.px[i] < -1.0F)) continue;
-    const Eigen::Array3f light = seen_.light.row(i).transpose();
-    const float to_grip = (light - colour).matrix().norm();
-    if (to_grip < 0.5F * (light - 0.25F).matrix().norm()) seen_.usable[i] = 0.0F;
+    if (!(handle.px[i] > 0.0F)) continue;
+    if (likeness(light_.row(i).cast<double>().transpose(), grips) < least_grip) continue;
+    if (alike && handle_.px[i] > -1.0F) {
+      grip_[i] = 1.0F;
+    } else {
+      seen_.usable[i] = 0.0F;
+    }
   }
 }
 
@@ -136,6 +149,8 @@ void StoneModel::find_colours(const SharedLook& look) {
         normal(i, j) = normal(j, i) = normal(i, j) + static_cast<double>((weighed * basis.col(j)).sum());
     }
     normal(2, 2) += 1e-2 * normal(1, 1);
+    normal(1, 1) += granite_weight_;
+    right[1] += granite_weight_ * expected_granite_[part];
     const Eigen::Vector3d found = normal.ldlt().solve(right);
     if (found.allFinite()) colours_.col(part) = found;
   }

@@ -38,6 +38,9 @@ class StoneModel {
   /// Leaves out the pixels that a nearer stone covers, and those beside the own handle that its grip seems to cover.
   void hide_behind(const NearerStone& nearer, const SharedLook& look);
 
+  /// What granite looks like is known from the club's other stones.
+  void expect_granite(const Light& granite);
+
   /// The colours that explain the pixels best where the stone now is: linear least squares.
   void find_colours(const SharedLook& look);
   /// Normal equations of place and shared numbers with the colours eliminated; weighs the pixels by their residuals.
@@ -48,6 +51,10 @@ class StoneModel {
   double variance() const { return variance_; }  ///< of a pixel's residual, in the units of the normal equations
   double residual() const { return residual_; }  ///< RMS, light against white ice
   double explained() const { return explained_; }
+  int telling() const { return telling_; }          ///< pixels that a stone changes, and no grip may cover
+  double told() const { return told_; }             ///< share of them that are as foretold
+  int handle_told() const { return handle_told_; }  ///< pixels of the handle that are as foretold, grip or not
+  int granite_told() const { return granite_told_; }
   const ModelMatrix& normal() const { return normal_; }
   const ModelVector& right() const { return right_; }
 
@@ -84,6 +91,7 @@ class StoneModel {
   void weigh(const Pixels& noise, const Pixels& sizes);
   void find_scale(const Pixels& sizes);
   void summarise(const Pixels& sizes, const Pixels& noise);
+  void count_told(const PixelColours& change);
 
   PatchSource source_;
   Eigen::Vector2d place_;
@@ -92,6 +100,7 @@ class StoneModel {
   PixelColours light_;   ///< brightness, red less brightness, blue less brightness
   PixelColours behind_;  ///< the same
   Pixels shade_;         ///< granite darkens downwards
+  Pixels grip_;          ///< 1: a nearer stone's grip may cover it; else 0
   Pixels used_;          ///< 1 or 0
   Pixels weight_;
   DiscDistances handle_, face_;
@@ -103,10 +112,16 @@ class StoneModel {
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
   bool coloured_ = false;
+  Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
+  double granite_weight_ = 0.0;
   double scale_ = 0.0;
   double variance_ = 0.0;
   double residual_ = 0.0;
   double explained_ = 0.0;
+  int telling_ = 0;
+  int handle_told_ = 0;
+  int granite_told_ = 0;
+  double told_ = 0.0;
 };
 
 }  // namespace hogline::vision

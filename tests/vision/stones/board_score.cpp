@@ -10,11 +10,9 @@ namespace hogline::vision::testing {
 namespace {
 
 constexpr double same_place_m = 0.12;
-constexpr double hidden_rim = 0.15;
+constexpr double hidden = 0.10;
 
-bool can_be_seen(const hogline::testing::BoardStone& s) {
-  return s.handle_seen >= 0.5 && s.handle_seen + s.body_seen >= 0.8;
-}
+bool can_be_seen(const hogline::testing::BoardStone& s) { return s.in_sight >= least_in_sight; }
 
 std::string line(std::uint64_t seed, const char* what, double x_m, double y_m, const std::string& why) {
   char text[256];
@@ -24,17 +22,18 @@ std::string line(std::uint64_t seed, const char* what, double x_m, double y_m, c
 }
 
 std::string seen_of(const hogline::testing::BoardStone& s) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(handle %.0f %%, body %.0f %% in sight): ", 100.0 * s.handle_seen,
-                100.0 * s.body_seen);
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.0f %% in sight; handle %.0f %%, body %.0f %%): ", 100.0 * s.in_sight,
+                100.0 * s.handle_seen, 100.0 * s.body_seen);
   return text;
 }
 
 std::string doubt_near(const StonesSketch& sketch, double x_m, double y_m) {
+  std::string last = "no votes";
   for (const auto& c : sketch.candidates) {
-    if (std::hypot(c.votes.place.x() - x_m, c.votes.place.y() - y_m) < same_place_m) return c.doubt;
+    if (std::hypot(c.votes.place.x() - x_m, c.votes.place.y() - y_m) < same_place_m) last = c.doubt;
   }
-  return "no votes";
+  return last;
 }
 
 void score(std::uint64_t seed, BoardScore& total) {
@@ -49,7 +48,7 @@ void score(std::uint64_t seed, BoardScore& total) {
   std::vector<bool> used(seen.stones.size(), false);
   for (const auto& truth : board.stones) {
     const bool wanted = can_be_seen(truth);
-    const bool between = !wanted && truth.rim_seen >= hidden_rim;
+    const bool between = !wanted && truth.in_sight >= hidden;
     total.stones += wanted ? 1 : 0;
     total.between += between ? 1 : 0;
     total.hidden += !wanted && !between ? 1 : 0;

@@ -7,13 +7,17 @@
 
 namespace hogline::vision::testing {
 
+/// A stone can be asked for when at least so much of it is in the picture with nothing before it, by pixels: the share
+/// of those it would cover alone (body, plate and grip) that show it. From the renderer's own truth.
+inline constexpr double least_in_sight = 0.5;
+
 struct BoardScore {
   int boards = 0;
-  int stones = 0;  ///< that can be seen: at least half of the handle, or a third and some of the body
+  int stones = 0;  ///< that can be asked for
   int found = 0;
   int between = 0;        ///< neither in sight nor hidden
   int between_found = 0;  ///< of these
-  int hidden = 0;         ///< less than 15 % of the handle's rim can be seen
+  int hidden = 0;         ///< less than a tenth of it is in sight
   int ghosts = 0;         ///< reported where no stone is
   int wrong_team = 0;     ///< red for yellow or the other way round
   int unknown_team = 0;

@@ -1,0 +1,172 @@
+#include "vision/crowd_screening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vision/detect/granite.hpp"
+
+namespace hogline::vision {
+namespace {
+
+constexpr double least_granite = 0.20;  // of the body's front; a nearer stone's granite counts, too
+constexpr double same_place_m = 0.2;
+constexpr double hiding_m = 1.2;       // a stone farther behind another is seen over it
+constexpr double least_handle = 0.35;  // share of the plate that has a handle's colour
+constexpr int most_rounds = 3;         // a stone behind one behind one
+
+StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
+StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
+
+// A stone stands there already.
+bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
+  return std::any_of(stones.begin(), stones.end(), [&place](const JudgedStone& s) {
+    return s.doubt.empty() && (s.fit.place - place).norm() < same_place_m;
+  });
+}
+
+JudgedStone refused(const StoneCandidate& candidate, const char* why) {
+  JudgedStone stone{candidate, FittedStone(), why};
+  stone.fit.place = candidate.place;
+  return stone;
+}
+
+std::vector<KnownStone> known_of(const std::vector<JudgedStone>& stones) {
+  std::vector<KnownStone> known;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
+  }
+  return known;
+}
+
+std::vector<NearerStone> believed(const std::vector<JudgedStone>& stones) {
+  std::vector<NearerStone> known;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
+  }
+  return known;
+}
+
+}  // namespace
+
+bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye) {
+  return std::any_of(others.begin(), others.end(), [&](const NearerStone& other) {
+    const double apart_m = (other.place - place).norm();
+    return (other.place - eye).norm() < (place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
+  });
+}
+
+std::vector<JudgedStone> CrowdScreening::look(const StonePicture& picture,
+                                              const std::vector<StoneCandidate>& candidates) {
+  std::vector<JudgedStone> stones;
+  for (const StoneCandidate& c : candidates) {
+    if (is_taken(c.place, stones)) continue;
+    if (granite_share(picture, c.place) < least_granite) {
+      stones.push_back(refused(c, "no granite below the handle"));
+      continue;
+    }
+    fitter_.begin(picture, {{c.place}}, quick_look());
+    if (is_hopeless(fitter_.first_granite())) {
+      stones.push_back(refused(c, "its colours are no stone's"));
+      continue;
+    }
+    const FittedStone& fit = fitter_.run().stones[0];
+    stones.push_back({c, fit, doubt_of(c, fit, false)});
+  }
+  return stones;
+}
+
+void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  const Eigen::Vector2d eye = picture.eye().head<2>();
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    for (std::size_t j = i + 1; j < stones.size() && stones[i].doubt.empty(); ++j) {
+      JudgedStone& a = stones[i];
+      JudgedStone& b = stones[j];
+      if (!b.doubt.empty() || !stand_in_one_place(a.fit.place, b.fit.place, picture)) continue;
+      if ((a.candidate.place - b.candidate.place).norm() < same_place_m) continue;
+      fitter_.begin(picture, {{a.candidate.place}, {b.candidate.place}}, careful_look());
+      const std::vector<FittedStone>& both = fitter_.run().stones;
+      if (stand_in_one_place(both[0].place, both[1].place, picture)) continue;
+      const bool a_is_nearer = (both[0].place - eye).norm() < (both[1].place - eye).norm();
+      if (!doubt_of(a.candidate, both[0], !a_is_nearer).empty()) continue;
+      if (!doubt_of(b.candidate, both[1], a_is_nearer).empty()) continue;
+      a.fit = both[0];
+      b.fit = both[1];
+    }
+  }
+}
+
+void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  const auto granite = clubs_granite(stones);
+  if (!granite) return;
+  std::vector<StoneCandidate> doubted;
+  for (const JudgedStone& s : stones) {
+    if (!s.doubt.empty()) doubted.push_back(s.candidate);
+  }
+  std::vector<KnownStone> newest = known_of(stones);
+  for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
+    const std::size_t before = stones.size();
+    std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones), newest);
+    if (round == 0) candidates.insert(candidates.end(), doubted.begin(), doubted.end());
+    glimpse_all(picture, candidates, *granite, stones);
+    newest.clear();
+    for (std::size_t i = before; i < stones.size(); ++i) {
+      if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+    }
+  }
+}
+
+// The best first: where several come out in one place, it keeps it.
+void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                                 const Light& granite, std::vector<JudgedStone>& stones) {
+  const std::vector<NearerStone> known = believed(stones);
+  std::vector<JudgedStone> glimpsed;
+  for (const StoneCandidate& c : candidates) {
+    if (is_taken(c.place, stones) || !looks_like_a_handle(picture, c.place)) continue;
+    glimpsed.push_back(glimpse(picture, c, known, granite));
+  }
+  std::sort(glimpsed.begin(), glimpsed.end(), [](const JudgedStone& a, const JudgedStone& b) {
+    return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
+  });
+  for (JudgedStone& s : glimpsed) {
+    if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = "another stone stands there";
+    stones.push_back(s);
+  }
+}
+
+JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCandidate& candidate,
+                                    const std::vector<NearerStone>& known, const Light& granite) {
+  StoneFitOptions options = careful_look();
+  options.nearer = known;
+  fitter_.begin(picture, {{candidate.place, granite}}, options);
+  const FittedStone& fit = fitter_.run().stones[0];
+  return {candidate, fit, doubt_of_glimpse(candidate, fit, granite), true};
+}
+
+// Some of the plate's upper face has a hue that one of the teams could have.
+bool CrowdScreening::looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const {
+  const SheetCamera& camera = picture.camera;
+  const StoneShape& shape = picture.shape;
+  const Bearing bearing = bearing_of(place, picture.eye());
+  int alike = 0;
+  int tried = 0;
+  for (const double part : {0.4, 0.8}) {
+    for (int i = 0; i < 8; ++i) {
+      const auto pixel = camera.project(circle_point(place, bearing, part * shape.handle_radius_m,
+                                                     shape.handle_height_m, 0.25 * std::numbers::pi * (i + part)));
+      if (!pixel || !camera.lens().in_picture(*pixel, 1.0)) continue;
+      const auto white = picture.ice.at(pixel->x(), pixel->y());
+      const std::uint8_t* p = picture.bgr.ptr<std::uint8_t>(static_cast<int>(std::lround(pixel->y()))) +
+                              3 * static_cast<int>(std::lround(pixel->x()));
+      alike += has_a_teams_hue({picture.response.linear(p[2]) / white[2], picture.response.linear(p[1]) / white[1],
+                                picture.response.linear(p[0]) / white[0]},
+                               teams_)
+                   ? 1
+                   : 0;
+      ++tried;
+    }
+  }
+  return alike >= least_handle * tried && tried > 0;
+}
+
+}  // namespace hogline::vision

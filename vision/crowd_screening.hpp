@@ -1,0 +1,45 @@
+// From candidates to stones: first each by itself, then what hides behind others or behind somebody's legs, by what the
+// first ones have shown of the club's stones.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "vision/detect/handle_search.hpp"
+#include "vision/detect/stone_team.hpp"
+#include "vision/detect/stone_vote.hpp"
+#include "vision/fit/stone_fit.hpp"
+#include "vision/stone_verdict.hpp"
+
+namespace hogline::vision {
+
+/// Something nearer than `place` is among the stones, and may hide parts of it. `eye` on the ice, in e.
+bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye);
+
+class CrowdScreening {
+ public:
+  explicit CrowdScreening(const TeamHues& teams) : teams_(teams) {}
+
+  /// Each candidate by itself: what is no stone does not look like one in any light.
+  std::vector<JudgedStone> look(const StonePicture& picture, const std::vector<StoneCandidate>& candidates);
+
+  /// Two that came out nearer than two stones can stand are fitted together: both stay if that parts them.
+  void tell_apart(const StonePicture& picture, std::vector<JudgedStone>& stones);
+
+  /// Once the granite is known: what was doubted, and handles that show behind known stones, with the parts that stones
+  /// and legs hide left out. `stones` grows.
+  void look_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
+
+ private:
+  bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
+  void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
+                   std::vector<JudgedStone>& stones);
+  JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,
+                      const std::vector<NearerStone>& known, const Light& granite);
+
+  TeamHues teams_;
+  HandleSearch handles_;
+  StoneFitter fitter_;
+};
+
+}  // namespace hogline::vision
