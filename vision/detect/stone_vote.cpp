@@ -7,7 +7,7 @@ namespace {
 
 constexpr float first_share = 0.22F;
 constexpr float first_handle_share = 0.33F;  // granite on dark paint has hardly an edge
-constexpr float big_x_px = 8.0F;            // half axes of a handle's outline that is searched in steps of two pixels
+constexpr float big_x_px = 8.0F;             // half axes of a handle's outline that is searched in steps of two pixels
 constexpr float big_y_px = 4.5F;
 constexpr float handle_share = 0.55F;
 constexpr float handle_alone = 0.70F;
