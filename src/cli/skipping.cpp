@@ -1,0 +1,74 @@
+// Command lines of the skip on the simulated rink.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "src/cli/commands.hpp"
+#include "src/skip/skip_scene.hpp"
+#include "src/skip/skip_set.hpp"
+#include "src/skip_command.hpp"
+
+namespace hogline::cli {
+
+void add_skip(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<SkipOptions>();
+  SkipOptions& options = *kept;
+  auto* skip = app.add_subcommand("skip", "the skip on the simulated rink: look, aim, follow the thrown stone to rest");
+  skip->add_option("--rig", options.rig, "rig file (YAML); without it the practice skip");
+  skip->add_option("--scenario", options.scenario,
+                   "scenario file (YAML) of the simulated rink; without it the practice rink");
+  skip->add_option("--throw", options.kind, "what is thrown; the seed draws the rest")
+      ->capture_default_str()
+      ->check(CLI::IsMember(throw_kind_names()));
+  skip->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  skip->add_option("--number", options.number, "this throw of the set that `hogline skips` measures, instead")
+      ->check(CLI::Range(0, throws_in_set - 1));
+  skip->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
+  skip->add_flag("--unannounced", options.unannounced,
+                 "the thrower does not tell when it lets go, nor which way it turns");
+  skip->add_option("--far-hz", options.far_hz, "rate of the far camera; without it the scenario's")
+      ->check(CLI::Range(2.0, 200.0));
+  skip->add_option("--near-hz", options.near_hz, "rate of the near camera; without it the scenario's")
+      ->check(CLI::Range(2.0, 200.0));
+  skip->add_option("--ice", options.ice,
+                   "file of what throws have taught of the ice: read if it is there, and written after the throw");
+  skip->add_option("--out", options.out, "folder for result.json, trajectory.csv and above.png")->capture_default_str();
+  skip->add_option("--record", options.record, "folder for the pictures that were looked at, for `hogline track`");
+  skip->add_flag("--json", options.json_only, "print nothing but the JSON object");
+  skip->footer(
+      "Examples:\n"
+      "  hogline skip --throw double --seed 7 --oracle --out out/skip\n"
+      "  hogline skip --throw draw --far-hz 10 --near-hz 10 --ice sheet4.yaml\n"
+      "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves.\n"
+      "doc/skip.md says what the JSON object holds.\n"
+      "Exit status: 0 the throw was followed to its end, 1 it was not (the reason says why), 2 wrong use or\n"
+      "configuration, 3 something outside failed (a disk).");
+  skip->callback([kept, &chosen] { chosen = [kept] { return run_skip(*kept); }; });
+}
+
+void add_skips(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<SkipsOptions>();
+  SkipsOptions& options = *kept;
+  auto* skips = app.add_subcommand("skips", "the set of 40 throws on which the skip is measured, as a table");
+  skips->add_option("--rig", options.rig, "rig file (YAML); without it the practice skip");
+  skips->add_option("--scenario", options.scenario, "scenario file (YAML); without it the practice rink");
+  skips->add_option("--seed", options.seed, "of the first throw, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  skips->add_option("--only", options.only, "this many throws, spread over the set")
+      ->check(CLI::Range(1, throws_in_set));
+  skips->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  skips->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
+  skips->add_option("--far-hz", options.far_hz, "rate of the far camera")->check(CLI::Range(2.0, 200.0));
+  skips->add_option("--near-hz", options.near_hz, "rate of the near camera")->check(CLI::Range(2.0, 200.0));
+  skips->add_option("--out", options.out, "folder for throws.csv and table.md")->capture_default_str();
+  skips->footer(
+      "Example:\n"
+      "  hogline skips --oracle --out out/skips\n"
+      "Exit status: 0 every throw was followed and nothing taken for something else, 1 not, 2 wrong use or\n"
+      "configuration, 3 something outside failed (a disk).");
+  skips->callback([kept, &chosen] { chosen = [kept] { return run_skips(*kept); }; });
+}
+
+}  // namespace hogline::cli

@@ -1,0 +1,88 @@
+// Command lines of what goes on between robots and strategists.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "src/cli/commands.hpp"
+#include "src/game_command.hpp"
+#include "src/keys_command.hpp"
+#include "src/link_command.hpp"
+
+namespace hogline::cli {
+
+void add_game(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<GameOptions>();
+  GameOptions& options = *kept;
+  auto* game = app.add_subcommand("game", "whole ends between two strategists, on an outcome model of throws");
+  game->add_option("--ends", options.ends, "how many, without extra ones")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 20));
+  game->add_option("--team0", options.first, "who decides for the first team: built-in, or dc:PORT")
+      ->capture_default_str()
+      ->check(known_strategist);
+  game->add_option("--team1", options.second, "the same for the second team, which has the first end's hammer")
+      ->capture_default_str()
+      ->check(known_strategist);
+  game->add_option("--address", options.address, "where Digital Curling clients may connect: an IPv4 address of ours")
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
+  game->add_option("--thinking", options.thinking_s, "each team's time for the whole game, s")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 86400.0));
+  game->add_option("--connect", options.connect_s, "how long clients are waited for, s")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 86400.0));
+  game->add_option("--seed", options.seed, "of the ice and of the throws, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  game->add_option("--out", options.out, "folder for game.jsonl and game.dcl2")->capture_default_str();
+  game->footer(
+      "Examples:\n"
+      "  hogline game --ends 4 --seed 7\n"
+      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001\n"
+      "No robot moves: FCV1 with an ice of its own, a thrower's errors, collisions, and an ice model that learns.\n"
+      "A dc:PORT waits for a Digital Curling 3 client; doc/strategy.md says what happens to one that misbehaves.\n"
+      "Exit status: 0 played to its end, 1 stopped before, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  game->callback([kept, &chosen] { chosen = [kept] { return run_game(*kept); }; });
+}
+
+void add_keys(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<KeysOptions>();
+  KeysOptions& options = *kept;
+  auto* keys = app.add_subcommand("keys", "keys for the team's link: then nobody else hears it or speaks on it");
+  keys->add_option("--out", options.out, "folder for the keys; it must not hold any")->required();
+  keys->add_option("--domain", options.domain, "the DDS domain for which they are, as link.domain in the rigs")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 232));
+  keys->add_option("--thrower", options.thrower, "name of the robot that throws")->capture_default_str();
+  keys->add_option("--skip", options.skip, "name of the robot that orders the shots")->capture_default_str();
+  keys->add_option("--observer", options.observers, "name of a machine that may listen and stop all; repeatable");
+  keys->add_option("--days", options.days, "how long they hold")->capture_default_str()->check(CLI::Range(1, 3650));
+  keys->footer(
+      "Examples:\n"
+      "  hogline keys --out keys --domain 7\n"
+      "  hogline keys --out keys --observer scoreboard --observer coach --days 30\n"
+      "Exit status: 0 made, 2 wrong use (a folder that holds keys, a name that is none),\n"
+      "3 something outside failed (a disk).");
+  keys->callback([kept, &chosen] { chosen = [kept] { return run_keys(*kept); }; });
+}
+
+void add_link(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<LinkOptions>();
+  LinkOptions& options = *kept;
+  auto* link = app.add_subcommand("link", "who is on the rig's link, and how far the clocks are apart");
+  link->add_option("--rig", options.rig, "rig file (YAML) with a link section: the robot to be")->required();
+  link->add_option("--seconds", options.seconds, "how long to listen")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 86400.0));
+  link->add_flag("--json", options.json, "one JSON object a peer");
+  link->footer(
+      "Sends nothing but heartbeats. Do not run it for a robot whose own program is running.\n"
+      "Example:\n"
+      "  hogline link --rig skip.yaml --seconds 5\n"
+      "Exit status: 0 all peers are there at the end, 1 one is not, 2 wrong use or configuration,\n"
+      "3 something outside failed (no such interface, no keys).");
+  link->callback([kept, &chosen] { chosen = [kept] { return run_link(*kept); }; });
+}
+
+}  // namespace hogline::cli
