@@ -14,12 +14,20 @@ struct Light {
 
   const float* row(int y) const { return &root[static_cast<std::size_t>(y * wide)]; }
 
-  void take(const cv::Mat& bgr, int x0, int y0, int channel, const std::array<float, 256>& roots) {
+  void take(const cv::Mat& bgr, int x0, int y0, int channel, const std::array<float, 256>& roots, float against) {
+    constexpr float scale = 0.125F / full_edge;
+    const bool inside = x0 >= 1 && x0 + tile_px < bgr.cols;
     for (int y = 0; y < wide; ++y) {
       const std::uint8_t* in = bgr.ptr<std::uint8_t>(std::clamp(y0 + y - 1, 0, bgr.rows - 1)) + channel;
       float* out = &root[static_cast<std::size_t>(y * wide)];
-      for (int x = 0; x < wide; ++x) out[x] = roots[in[3 * std::clamp(x0 + x - 1, 0, bgr.cols - 1)]];
+      if (inside) {
+        in += 3 * (x0 - 1);
+        for (int x = 0; x < wide; ++x) out[x] = roots[in[3 * x]];
+      } else {
+        for (int x = 0; x < wide; ++x) out[x] = roots[in[3 * std::clamp(x0 + x - 1, 0, bgr.cols - 1)]];
+      }
     }
+    for (float& light : root) light = scale * std::min(brightest, light * against);
   }
 };
 
@@ -56,10 +64,8 @@ const EdgeField::Tile* EdgeField::compute(int column, int row) {
   const auto white = ice_->at(x0 + 0.5 * tile_px, y0 + 0.5 * tile_px);
   for (int k = 0; k < 3; ++k) {
     const float against = 1.0F / std::sqrt(white[static_cast<std::size_t>(k)]);
-    std::array<float, 256> roots;
-    for (std::size_t i = 0; i < 256; ++i) roots[i] = 0.125F / full_edge * std::min(brightest, root_[i] * against);
     Light<tile_px> light;
-    light.take(*bgr_, x0, y0, k, roots);
+    light.take(*bgr_, x0, y0, k, root_, against);
     for (int y = 0; y < tile_px; ++y) {
       std::array<float, tile_px> gx;
       std::array<float, tile_px> gy;

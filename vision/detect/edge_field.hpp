@@ -34,7 +34,7 @@ class EdgeField {
   }
 
  private:
-  static constexpr int tile_px = 32;
+  static constexpr int tile_px = 16;
   static constexpr float noise_floor = 0.227F;  // of a full edge
   /// Of all channels together, turned to one sense; 1 is a full edge.
   struct Tile {
