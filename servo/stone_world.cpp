@@ -140,17 +140,6 @@ std::vector<int> assign(const World& world, const std::vector<StoneLook>& looks,
   return column;
 }
 
-void judge_margins(WorldStone& stone, const WorldConfig& config) {
-  const double sigma_x = std::sqrt(stone.motion.covariance(0, 0)), sigma_y = std::sqrt(stone.motion.covariance(1, 1));
-  const double back = stone.motion.stone.y_m + stone_radius_m + back_line_m;
-  if (back < stone.back_margin_m) stone.back_margin_m = back, stone.back_sigma_m = sigma_y;
-  if (config.sheet_width_m) {
-    const double side = 0.5 * *config.sheet_width_m - std::abs(stone.motion.stone.x_m) - stone_radius_m;
-    if (side < stone.side_margin_m) stone.side_margin_m = side, stone.side_sigma_m = sigma_x;
-  }
-  if (stone.side_margin_m <= 0.0 || stone.back_margin_m <= 0.0) stone.phase = StonePhase::gone;
-}
-
 void judge_rest(WorldStone& stone) {
   if (!stone.motion.at_rest()) {
     stone.looks_at_rest = 0;
@@ -174,6 +163,17 @@ void see(WorldStone& stone, const StoneLook& look, const WorldConfig& config) {
 }
 
 }  // namespace
+
+void judge_margins(WorldStone& stone, const WorldConfig& config) {
+  const double sigma_x = std::sqrt(stone.motion.covariance(0, 0)), sigma_y = std::sqrt(stone.motion.covariance(1, 1));
+  const double back = stone.motion.stone.y_m + stone_radius_m + back_line_m;
+  if (back < stone.back_margin_m) stone.back_margin_m = back, stone.back_sigma_m = sigma_y;
+  if (config.sheet_width_m) {
+    const double side = 0.5 * *config.sheet_width_m - std::abs(stone.motion.stone.x_m) - stone_radius_m;
+    if (side < stone.side_margin_m) stone.side_margin_m = side, stone.side_sigma_m = sigma_x;
+  }
+  if (stone.side_margin_m <= 0.0 || stone.back_margin_m <= 0.0) stone.phase = StonePhase::gone;
+}
 
 const WorldStone* World::find(int id) const {
   const auto at = std::find_if(stones.begin(), stones.end(), [&](const WorldStone& s) { return s.id == id; });

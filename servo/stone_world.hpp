@@ -91,6 +91,10 @@ struct World {
 /// some in which they touch.
 std::vector<World> advanced(const World& world, Stamp to, const WorldConfig& config);
 
+/// Notes how near a moving stone is to a sideline and to the back line, and that it is gone when it is over one of
+/// them.
+void judge_margins(WorldStone& stone, const WorldConfig& config);
+
 /// Takes in the looks of one picture. Precondition: the world is at their stamp.
 void take(World& world, const std::vector<StoneLook>& looks, const WorldConfig& config);
 

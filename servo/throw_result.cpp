@@ -169,7 +169,9 @@ std::vector<TrajectoryPoint> smoothed(const ThrowFit& fit, const std::vector<Sto
   return points;
 }
 
-StoneOutcome outcome_of(const WorldStone& stone, const std::vector<WorldCollision>& collisions) {
+StoneOutcome outcome_of(WorldStone stone, const std::vector<WorldCollision>& collisions, const WorldConfig& config) {
+  // Nobody looks beyond the sidelines: a stone that was seen running there is out by where it must have gone.
+  if (stone.phase == StonePhase::moving) judge_margins(stone, config);
   StoneOutcome out{stone.id, stone.team, stone.thrown, stone.has_moved, StoneFate::at_rest, true, 0.0, 0.0, {}};
   const MotionCovariance& c = stone.motion.covariance;
   out.x_m = stone.motion.stone.x_m, out.y_m = stone.motion.stone.y_m;
@@ -196,7 +198,7 @@ StoneOutcome outcome_of(const WorldStone& stone, const std::vector<WorldCollisio
 ThrowResult result_of(const World& world, double spin_radps, const WorldConfig& config, const ThrowFitConfig& fit) {
   ThrowResult result;
   result.collisions = true_collisions(world);
-  for (const WorldStone& stone : world.stones) result.stones.push_back(outcome_of(stone, result.collisions));
+  for (const WorldStone& stone : world.stones) result.stones.push_back(outcome_of(stone, result.collisions, config));
   const WorldStone* thrown = world.thrown();
   if (!thrown || !thrown->looks) {
     result.reason = "no stone was seen to be thrown";

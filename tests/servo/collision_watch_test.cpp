@@ -279,6 +279,26 @@ TEST(CollisionWatch, NothingIsBornOfFalseLooks) {
   EXPECT_EQ(result.reason, "no stone was seen to be thrown");
 }
 
+TEST(CollisionWatch, AStoneLastSeenRunningToTheSidelineIsOutWhenItMustHaveGoneOverIt) {
+  std::mt19937_64 random(13);
+  const Scene scene = scene_of(SceneKind::hit, random);
+  CollisionWatch watch(watch_config(about(scene.ice, random)), throw_start, seen_standing(scene, random));
+  World world = watch.at(throw_start);
+  WorldConfig config = watch.config().world;
+  config.sheet_width_m = 4.72;
+  ASSERT_FALSE(world.stones.empty());
+  WorldStone& stone = world.stones.front();
+  stone.phase = StonePhase::moving;
+  stone.has_moved = true;
+  const auto fate_at = [&](double x_m) {
+    stone.motion.stone.x_m = x_m;
+    return result_of(world, 0.0, config, {}).stones.front().fate;
+  };
+  EXPECT_EQ(fate_at(2.9), StoneFate::sideline);
+  EXPECT_EQ(fate_at(-3.6), StoneFate::sideline);
+  EXPECT_NE(fate_at(2.1), StoneFate::sideline);
+}
+
 TEST(CollisionWatch, WhatCanNotBeUsedChangesNothing) {
   std::mt19937_64 random(12);
   const Scene scene = scene_of(SceneKind::guard, random);
