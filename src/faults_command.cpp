@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "src/config/config_error.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults/fault_page.hpp"
 
@@ -30,9 +33,21 @@ void write(const std::string& path, const std::string& page) {
   if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
 }
 
+// Before the first throw: a table takes a minute.
+void check(const FaultsOptions& options) {
+  const auto table = faults::fault_table();
+  if (std::ranges::none_of(table, [&](const faults::Case& fault) { return wanted(fault, options.only); })) {
+    throw config::ConfigError("command line", 0, "--only", options.only,
+                              "no fault's group, name or way of injection contains it; doc/faults.md lists them");
+  }
+  if (!options.out.empty() && std::filesystem::is_directory(options.out))
+    throw config::ConfigError("command line", 0, "--out", options.out, "is a folder; name a file in it");
+}
+
 }  // namespace
 
 int run_faults(const FaultsOptions& options) {
+  check(options);
   std::vector<faults::Row> rows;
   bool all_well = true;
   for (const faults::Case& fault : faults::fault_table()) {

@@ -59,6 +59,10 @@ int run_skip(const SkipOptions& options) {
   check_folder(options.out);
   SkipRequest request = request_of(options);
   if (!options.ice.empty()) request.ice = load_ice(options.ice).value_or(request.ice);
+  if (options.oracle && !options.record.empty()) {
+    throw config::ConfigError("command line", 0, "--record", options.record,
+                              "the oracle looks at no pictures: leave --oracle out to record them");
+  }
   if (!options.record.empty()) check_folder(options.record);
   request.record = options.record;
   if (!options.json_only) fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");

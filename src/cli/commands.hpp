@@ -3,7 +3,6 @@
 
 #include <CLI/App.hpp>
 #include <functional>
-#include <string>
 
 namespace hogline::cli {
 
@@ -25,8 +24,5 @@ void add_track(CLI::App& app, Chosen& chosen);
 void add_skips(CLI::App& app, Chosen& chosen);
 void add_keys(CLI::App& app, Chosen& chosen);
 void add_link(CLI::App& app, Chosen& chosen);
-
-/// A check of options: digits alone, for CLI11 would wrap -1 around. Empty: fine.
-std::string whole_number(const std::string& text);
 
 }  // namespace hogline::cli

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/number_checks.hpp"
 #include "src/skip/skip_scene.hpp"
 #include "src/skip/skip_set.hpp"
 #include "src/skip_command.hpp"
@@ -28,9 +29,9 @@ void add_skip(CLI::App& app, Chosen& chosen) {
   skip->add_flag("--unannounced", options.unannounced,
                  "the thrower does not tell when it lets go, nor which way it turns");
   skip->add_option("--far-hz", options.far_hz, "rate of the far camera; without it the scenario's")
-      ->check(CLI::Range(2.0, 200.0));
+      ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));
   skip->add_option("--near-hz", options.near_hz, "rate of the near camera; without it the scenario's")
-      ->check(CLI::Range(2.0, 200.0));
+      ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));
   skip->add_option("--ice", options.ice,
                    "file of what throws have taught of the ice: read if it is there, and written after the throw");
   skip->add_option("--out", options.out, "folder for result.json, trajectory.csv and above.png")->capture_default_str();
@@ -60,8 +61,10 @@ void add_skips(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(1, throws_in_set));
   skips->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
   skips->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
-  skips->add_option("--far-hz", options.far_hz, "rate of the far camera")->check(CLI::Range(2.0, 200.0));
-  skips->add_option("--near-hz", options.near_hz, "rate of the near camera")->check(CLI::Range(2.0, 200.0));
+  skips->add_option("--far-hz", options.far_hz, "rate of the far camera")
+      ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));
+  skips->add_option("--near-hz", options.near_hz, "rate of the near camera")
+      ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));
   skips->add_option("--out", options.out, "folder for throws.csv and table.md")->capture_default_str();
   skips->footer(
       "Example:\n"

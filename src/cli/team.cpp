@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/number_checks.hpp"
 #include "src/game_command.hpp"
 #include "src/keys_command.hpp"
 #include "src/link_command.hpp"
@@ -27,10 +28,10 @@ void add_game(CLI::App& app, Chosen& chosen) {
       ->check(CLI::ValidIPV4);
   game->add_option("--thinking", options.thinking_s, "each team's time for the whole game, s")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 86400.0));
+      ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"));
   game->add_option("--connect", options.connect_s, "how long clients are waited for, s")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 86400.0));
+      ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"));
   game->add_option("--seed", options.seed, "of the ice and of the throws, a whole number from 0")
       ->capture_default_str()
       ->check(whole_number);
@@ -74,7 +75,7 @@ void add_link(CLI::App& app, Chosen& chosen) {
   link->add_option("--rig", options.rig, "rig file (YAML) with a link section: the robot to be")->required();
   link->add_option("--seconds", options.seconds, "how long to listen")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 86400.0));
+      ->check(CLI::Validator(between(0.1, 86400.0), "0.1 to 86400.0"));
   link->add_flag("--json", options.json, "one JSON object a peer");
   link->footer(
       "Sends nothing but heartbeats. Do not run it for a robot whose own program is running.\n"

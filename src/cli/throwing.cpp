@@ -4,6 +4,7 @@
 
 #include "src/campaign_command.hpp"
 #include "src/cli/commands.hpp"
+#include "src/cli/number_checks.hpp"
 #include "src/demo_command.hpp"
 #include "src/faults_command.hpp"
 #include "src/sights_command.hpp"

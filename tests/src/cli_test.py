@@ -45,6 +45,20 @@ class WrongUse(unittest.TestCase):
         for word in words:
             self.assertIn(word, result.stderr)
 
+    def test_not_a_number_is_no_number(self):
+        for words in (["game", "--thinking", "nan"], ["game", "--connect", "inf"], ["skip", "--far-hz", "nan"],
+                      ["skips", "--near-hz", ""], ["link", "--rig", RIG, "--seconds", "nan"]):
+            result = run(*words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn("is no number from", result.stderr)
+
+    def test_no_fault_of_that_name(self):
+        self.refuses(run("faults", "--only", "nosuch"), "--only", "nosuch", "doc/faults.md")
+        self.refuses(run("faults", "--only", "Gyro", "--out", self.folder.name), "--out", "is a folder")
+
+    def test_the_oracle_records_nothing(self):
+        self.refuses(run("skip", "--oracle", "--record", os.path.join(self.folder.name, "r")), "--record", "oracle")
+
     def test_a_missing_picture(self):
         self.refuses(run("pose", "--rig", RIG, "--camera", "near", "nowhere.jpg"), "nowhere.jpg", "no such picture")
 
