@@ -1,10 +1,10 @@
 // The recent past of the skip's rink, for cameras whose frames are exposed between two steps.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <vector>
 
+#include "hw/sim/moments.hpp"
 #include "hw/sim/stone_field.hpp"
 
 namespace hogline::hw::sim {
@@ -27,14 +27,13 @@ struct SkipMoment {
 /// Moments in the order of their stamps, kept for a while; between two of them all motion is taken to be even.
 class SkipHistory {
  public:
-  explicit SkipHistory(Duration kept) : kept_(kept) {}
-  void add(const SkipMoment& moment);
+  explicit SkipHistory(Duration kept) : moments_(kept) {}
+  void add(const SkipMoment& moment) { moments_.add(moment); }
   /// Precondition: at least one moment. A stamp outside what is kept gives the nearest moment.
   SkipMoment at(Stamp stamp) const;
 
  private:
-  Duration kept_;
-  std::deque<SkipMoment> moments_;
+  Moments<SkipMoment> moments_;
 };
 
 }  // namespace hogline::hw::sim

@@ -1,17 +1,16 @@
 // The recent past of the simulated world, for cameras whose frames are exposed between two steps.
 #pragma once
 
-#include <deque>
 #include <mutex>
 
-#include "hw/sim/truth.hpp"
+#include "hw/sim/moments.hpp"
 
 namespace hogline::hw::sim {
 
 /// Samples in the order of their stamps, kept for a while; between two of them all motion is taken to be even.
 class WorldHistory {
  public:
-  explicit WorldHistory(Duration kept) : kept_(kept) {}
+  explicit WorldHistory(Duration kept) : samples_(kept) {}
 
   void add(const Truth& truth);
 
@@ -29,9 +28,8 @@ class WorldHistory {
   Place at(Stamp stamp) const;
 
  private:
-  Duration kept_;
   mutable std::mutex mutex_;  ///< cameras may render in another thread than the one that steps the rink
-  std::deque<Truth> samples_;
+  Moments<Truth> samples_;
 };
 
 }  // namespace hogline::hw::sim
