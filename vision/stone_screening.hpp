@@ -1,5 +1,5 @@
-// From places with votes to stones: each by itself, then what nearer stones may hide, then all together. Near and far
-// view share it.
+// From places with votes to stones down the sheet: each by itself, then what nearer stones may hide, then all together.
+// The far view's; crowds in the near view are crowd_screening's.
 #pragma once
 
 #include <vector>
@@ -43,8 +43,5 @@ class StoneScreening {
   ScreeningOptions options_;
   StoneFitter fitter_;
 };
-
-/// What the verdict leaves of a stone, as the percept says it.
-StoneSighting sighting_of(const JudgedStone& stone, const TeamHues& teams);
 
 }  // namespace hogline::vision

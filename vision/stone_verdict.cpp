@@ -170,4 +170,20 @@ void compare_granite(std::vector<JudgedStone>& stones) {
   }
 }
 
+StoneSighting sighting_of(const JudgedStone& stone, const TeamHues& teams) {
+  StoneSighting s;
+  s.x_m = stone.fit.place.x();
+  s.y_m = stone.fit.place.y();
+  s.covariance = {stone.fit.covariance(0, 0), stone.fit.covariance(0, 1), stone.fit.covariance(1, 1)};
+  s.colour = {static_cast<float>(stone.fit.handle[2]), static_cast<float>(stone.fit.handle[1]),
+              static_cast<float>(stone.fit.handle[0])};
+  const TeamVerdict team = team_of(s.colour, teams);
+  s.team = team.team;
+  s.team_confidence = team.confidence;
+  s.support = stone.candidate.votes;
+  s.visible = stone.fit.visible;
+  s.residual = stone.fit.residual;
+  return s;
+}
+
 }  // namespace hogline::vision

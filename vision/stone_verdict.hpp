@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/detect/stone_team.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
 
@@ -43,5 +44,8 @@ void doubt_grips(std::vector<JudgedStone>& stones, const Eigen::Vector3d& eye, c
 
 /// All stones of a club are cut from the same rock: marks what differs much from the others' granite.
 void compare_granite(std::vector<JudgedStone>& stones);
+
+/// What the verdict leaves of a stone, as the percept says it.
+StoneSighting sighting_of(const JudgedStone& stone, const TeamHues& teams);
 
 }  // namespace hogline::vision

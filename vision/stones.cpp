@@ -31,7 +31,6 @@ struct StoneFinder::Impl {
   std::string unusable(const cv::Mat& image) const;
   StoneArea area(std::optional<double> sheet_width_m) const;
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
-  StoneSighting sighting(const JudgedStone& stone) const;
 
   StonesSetup setup;
   Lens lens;
@@ -75,7 +74,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
 
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) seen.stones.push_back(impl_->sighting(s));
+    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
@@ -125,22 +124,6 @@ void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedSt
                   ? doubt_of_glimpse(s.candidate, s.fit, *granite)
                   : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
   }
-}
-
-StoneSighting StoneFinder::Impl::sighting(const JudgedStone& stone) const {
-  StoneSighting s;
-  s.x_m = stone.fit.place.x();
-  s.y_m = stone.fit.place.y();
-  s.covariance = {stone.fit.covariance(0, 0), stone.fit.covariance(0, 1), stone.fit.covariance(1, 1)};
-  s.colour = {static_cast<float>(stone.fit.handle[2]), static_cast<float>(stone.fit.handle[1]),
-              static_cast<float>(stone.fit.handle[0])};
-  const TeamVerdict team = team_of(s.colour, setup.teams);
-  s.team = team.team;
-  s.team_confidence = team.confidence;
-  s.support = stone.candidate.votes;
-  s.visible = stone.fit.visible;
-  s.residual = stone.fit.residual;
-  return s;
 }
 
 }  // namespace hogline::vision
