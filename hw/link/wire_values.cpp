@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
 
+// Rows and columns of x and y in a ROS 2 covariance of six.
+constexpr std::size_t xx = 0;
+constexpr std::size_t xy = 1;
+constexpr std::size_t yx = 6;
+constexpr std::size_t yy = 7;
+
 }  // namespace
 
 builtin_interfaces_msg_dds__Time_ wire_time(TeamTime time) {
@@ -46,6 +52,14 @@ std::optional<Origin> plain_origin(const hogline_msgs_msg_dds__Origin_& origin,
   if (!robot || robot->empty() || !time || origin.session == 0 || origin.serial == 0) return std::nullopt;
   return Origin{.robot = *robot, .session = origin.session, .serial = origin.serial, .stamp = *time};
 }
+
+void put_covariance(double (&wire)[36], const std::array<double, 3>& covariance) {
+  wire[xx] = covariance[0];
+  wire[xy] = wire[yx] = covariance[1];
+  wire[yy] = covariance[2];
+}
+
+std::array<double, 3> covariance_of(const double (&wire)[36]) { return {wire[xx], wire[xy], wire[yy]}; }
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });

@@ -1,6 +1,7 @@
 // The values that all messages share, between plain structs and the wire's C structs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,6 +32,10 @@ hogline_msgs_msg_dds__Origin_ wire_origin(const Origin& origin);
 /// Empty: no name, session or serial 0, or a stamp that is none.
 std::optional<Origin> plain_origin(const hogline_msgs_msg_dds__Origin_& origin,
                                    const builtin_interfaces_msg_dds__Time_& stamp);
+
+/// xx, xy and yy of x and y, as a ROS 2 covariance of six: the rest is zero.
+void put_covariance(double (&wire)[36], const std::array<double, 3>& covariance);
+std::array<double, 3> covariance_of(const double (&wire)[36]);
 
 bool all_finite(std::initializer_list<double> values);
 bool all_finite(std::span<const double> values);
