@@ -70,6 +70,7 @@ int run_track(const TrackOptions& options) {
   told.foretold = tracked.foretold;
   told.teams = team_names(rig.rig);
   told.seen_by = "vision";
+  told.unread = tracked.unread;
   write_throw(options.out, told);
   fmt::print("{}\n", throw_json(told, -1));
   return tracked.report.ok ? ExitStatus::success : ExitStatus::not_achieved;

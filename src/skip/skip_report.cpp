@@ -174,6 +174,7 @@ std::string throw_json(const ToldThrow& told, int indent) {
       {"stones", stones(told)},
       {"foretold_stop", foretold(told)},
       {"ice", ice(told)}};
+  if (told.unread) object["unread"] = *told.unread;
   if (told.truth) object["against_truth"] = figures(*told.truth);
   return object.dump(indent);
 }

@@ -34,11 +34,11 @@ struct FarSequence::Impl {
 
   explicit Impl(const FarSetup& setup) : view(setup, quick_screening()) {}
 
-  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, const std::vector<FarExpectation>& expected);
+  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, const std::vector<StoneExpectation>& expected);
   const FarAim& aim(const PictureLight& light, const FarPlan& plan);
   bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  bool sure(const FarExpectation& expectation) const;
-  std::vector<Predicted> predict(Stamp stamp, const std::vector<FarExpectation>& expected) const;
+  bool sure(const StoneExpectation& expectation) const;
+  std::vector<Predicted> predict(Stamp stamp, const std::vector<StoneExpectation>& expected) const;
   FarSearch search(const std::vector<Predicted>& predicted, const FarArea& area);
   void remember(Stamp stamp, const std::vector<JudgedStone>& stones);
   FarPlace place_of(const Eigen::Vector2d& place) const;
@@ -82,7 +82,7 @@ bool FarSequence::Impl::same(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return std::hypot(a.x() - b.x(), (a.y() - b.y()) / along_per_across) < same_stone_m;
 }
 
-bool FarSequence::Impl::sure(const FarExpectation& expectation) const {
+bool FarSequence::Impl::sure(const StoneExpectation& expectation) const {
   const SheetCamera& camera = *view.levels.middle().camera;
   const Eigen::Vector3d eye = camera.eMc().translation();
   const double range_m = std::hypot(expectation.x_m - eye.x(), expectation.y_m - eye.y());
@@ -94,13 +94,13 @@ bool FarSequence::Impl::sure(const FarExpectation& expectation) const {
 
 // By its own motion; a tracker knows better. What only the tracker knows of is looked for by votes.
 std::vector<FarSequence::Impl::Predicted> FarSequence::Impl::predict(
-    Stamp stamp, const std::vector<FarExpectation>& expected) const {
+    Stamp stamp, const std::vector<StoneExpectation>& expected) const {
   std::vector<Predicted> all;
   for (const Known& k : known) {
     const double dt_s = seconds(stamp - k.stamp);
     all.push_back({&k, k.seen.fit.place + dt_s * k.velocity, k.followed});
   }
-  for (const FarExpectation& e : expected) {
+  for (const StoneExpectation& e : expected) {
     const Eigen::Vector2d place(e.x_m, e.y_m);
     const auto nearest = std::min_element(all.begin(), all.end(), [&](const Predicted& a, const Predicted& b) {
       return (a.place - place).norm() < (b.place - place).norm();
@@ -181,7 +181,7 @@ void FarSequence::Impl::remember(Stamp stamp, const std::vector<JudgedStone>& st
 }
 
 FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
-                                   const std::vector<FarExpectation>& expected) {
+                                   const std::vector<StoneExpectation>& expected) {
   FarPercept seen;
   seen.stamp = stamp;
   seen.reason = unusable(image, view.setup.camera.intrinsics, plan);
@@ -211,7 +211,7 @@ FarSequence::FarSequence(FarSequence&&) noexcept = default;
 FarSequence& FarSequence::operator=(FarSequence&&) noexcept = default;
 
 FarPercept FarSequence::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
-                             const std::vector<FarExpectation>& expected) {
+                             const std::vector<StoneExpectation>& expected) {
   return impl_->look(image, stamp, plan, expected);
 }
 

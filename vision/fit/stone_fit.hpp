@@ -42,6 +42,7 @@ struct StoneFitOptions {
   bool fit_shape = true;
   int pixels = 300;                      ///< about so many of each stone
   std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
+  std::optional<SharedLook> begin_with = {};  ///< what the last picture showed of it; empty: the rig's shape
 };
 
 /// Where a stone may stand, and the club's granite where it is known: of what is half hidden it can not be learnt.
