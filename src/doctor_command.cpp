@@ -25,7 +25,12 @@ bool is_simulated(const config::Rig& rig) {
   });
 }
 
-std::vector<doctor::Finding> examine_simulated(const std::string& file) {
+std::vector<doctor::Finding> examine_simulated(const std::string& file, const config::DeviceRig& devices) {
+  if (!config::is_thrower(devices)) {
+    throw config::ConfigError(file, 0, "", "",
+                              "is no thrower's rig, and the simulated rink's devices are a thrower's; `hogline skip` "
+                              "runs the skip on its own");
+  }
   constexpr std::uint64_t seed = 1;
   const config::ThrowerRig rig = config::load_thrower_rig(file);
   SimulatedRobot robot(
@@ -48,7 +53,7 @@ std::vector<doctor::Finding> examine_steel(const config::DeviceRig& rig) {
 int run_doctor(const DoctorOptions& options) {
   const config::DeviceRig rig = config::load_device_rig(options.rig);
   const bool simulated = options.simulated || (is_simulated(rig.rig) && config::is_thrower(rig));
-  const auto findings = simulated ? examine_simulated(options.rig) : examine_steel(rig);
+  const auto findings = simulated ? examine_simulated(options.rig, rig) : examine_steel(rig);
   if (options.json) {
     fmt::print("{}\n", doctor::json_line(findings, options.rig, simulated));
   } else {

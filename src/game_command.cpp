@@ -20,6 +20,7 @@
 #include "src/game/built_in_strategist.hpp"
 #include "src/game/game_journal.hpp"
 #include "src/game/simulated_throws.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 namespace {
@@ -140,6 +141,7 @@ std::string known_strategist(const std::string& text) {
 }
 
 int run_game(const GameOptions& options) {
+  check_folder("--out", options.out);
   const servo::ThrowerSkill skill = practice_skill();
   const game::SimulatedSheet sheet = game::any_sheet(options.seed);
   const GameIdentity identity{game_id(), date_time()};
@@ -147,7 +149,6 @@ int run_game(const GameOptions& options) {
   game::SimulatedThrows throws(sheet, skill, servo::IceModel({}), options.seed);
   Teams teams = teams_of(options, identity, offer, skill, throws);
 
-  std::filesystem::create_directories(options.out);
   std::ofstream lines = opened(std::filesystem::path(options.out) / "game.jsonl");
   std::ofstream record = opened(std::filesystem::path(options.out) / "game.dcl2");
   hw::digital_curling::GameLog log(record, date_time);

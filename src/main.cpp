@@ -1,14 +1,12 @@
-#include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/parsing.hpp"
 #include "src/config/config_error.hpp"
-#include "src/config/nearest_word.hpp"
 #include "src/exit_status.hpp"
 
 namespace {
@@ -19,19 +17,6 @@ using hogline::ExitStatus;
 void prepare_libraries() {
   gsl_set_error_handler_off();
   cv::setNumThreads(1);
-}
-
-// The parser itself would only say that a word was not expected.
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::ranges::find(known, argv[1]) != known.end()) return;
-  const std::string meant = hogline::config::nearest_word(argv[1], known);
-  throw hogline::config::ConfigError(
-      "command line", 0, "subcommand", argv[1],
-      fmt::format("unknown; {}there are {}", meant.empty() ? "" : "did you mean " + meant + "? ",
-                  fmt::join(known, ", ")));
 }
 
 int run(int argc, char** argv) {
@@ -45,12 +30,7 @@ int run(int argc, char** argv) {
         hogline::cli::add_campaign, hogline::cli::add_sights, hogline::cli::add_skip, hogline::cli::add_track,
         hogline::cli::add_skips, hogline::cli::add_keys, hogline::cli::add_link})
     add(app, chosen);
-  check_subcommand(app, argc, argv);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? ExitStatus::success : ExitStatus::wrong_use;
-  }
+  if (const auto done = hogline::cli::parse(app, argc, argv)) return *done;
   return chosen();
 }
 
