@@ -8,6 +8,7 @@
 #include "vision/detect/stone_vote.hpp"
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
+#include "vision/handle_angle.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -17,6 +18,13 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
+
+void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone) {
+  const HandleAngle handle = handle_angle(picture, stone, places);
+  if (!handle.ok) return;
+  stone.handle_rad = handle.rad;
+  stone.handle_sigma_rad = handle.sigma_rad;
+}
 
 }  // namespace
 
@@ -71,11 +79,14 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   compare_granite(stones);
   part_overlapping(picture, stones);
 
+  std::vector<Eigen::Vector2d> places;
   for (JudgedStone& s : stones) {
+    if (s.doubt.empty()) places.push_back(s.fit.place);
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
     if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
+  for (StoneSighting& s : seen.stones) measure_handle(picture, places, s);
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
   seen.groups = static_cast<int>(groups.boxes.size());

@@ -294,7 +294,11 @@ class Stones(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = [json.loads(line) for line in result.stdout.splitlines()]
         self.assertEqual([len(line["stones"]) for line in lines], [6, 6])
-        self.assertEqual(set(lines[0]["stones"][0]), {"x_m", "y_m", "team", "sigma_m"})
+        stone = lines[0]["stones"][0]
+        self.assertEqual(set(stone), {"x_m", "y_m", "team", "sigma_m", "handle_deg", "handle_sigma_deg"})
+        handles = [s["handle_deg"] for s in lines[0]["stones"] if s["handle_deg"] is not None]
+        self.assertGreaterEqual(len(handles), 4)
+        self.assertTrue(all(-90.0 <= h <= 90.0 for h in handles), handles)
 
     def test_a_sequence_is_averaged(self):
         one = json.loads(run("stones", "--rig", RIG, self.SKIP).stdout)

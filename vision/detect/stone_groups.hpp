@@ -20,8 +20,8 @@ struct StoneGroups {
 
 /// Of a picture in which stones are known already.
 struct GroupSearch {
-  int first_row = 0;  ///< handles' centres from here
-  int last_row = 0;   ///< to before here
+  int first_row = 0;                              ///< handles' centres from here
+  int last_row = 0;                               ///< to before here
   std::vector<std::vector<cv::Point>> explained;  ///< convex, pixels: granite in there is a known stone's
 };
 

@@ -34,7 +34,8 @@ struct FarSequence::Impl {
 
   explicit Impl(const FarSetup& setup) : view(setup, quick_screening()) {}
 
-  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, const std::vector<StoneExpectation>& expected);
+  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
+                  const std::vector<StoneExpectation>& expected);
   const FarAim& aim(const PictureLight& light, const FarPlan& plan);
   bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   bool sure(const StoneExpectation& expectation) const;

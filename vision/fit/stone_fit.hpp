@@ -40,8 +40,8 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 4;
   bool fit_shape = true;
-  int pixels = 300;                      ///< about so many of each stone
-  std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
+  int pixels = 300;                           ///< about so many of each stone
+  std::vector<NearerStone> nearer = {};       ///< stones known already, which may hide parts of these
   std::optional<SharedLook> begin_with = {};  ///< what the last picture showed of it; empty: the rig's shape
 };
 

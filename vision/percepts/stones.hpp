@@ -28,7 +28,9 @@ struct StoneSighting {
   Team team = Team::unknown;
   double team_confidence = 0.0;      ///< 0: could be anyone's, 1: no doubt; of `team`, or that it is unknown
   std::array<float, 3> colour{};     ///< of the handle against white ice: red, green, blue; about 0..1
-  std::optional<double> handle_rad;  ///< the grip's direction from e's y axis; empty: not measured
+  std::optional<double> handle_rad;  ///< the grip's direction from e's y axis, counter-clockwise, modulo half a turn;
+                                     ///< empty: not measured
+  double handle_sigma_rad = 0.0;     ///< of it
   double support = 0.0;              ///< share of the outline that could be seen and was found, 0..1
   double visible = 1.0;              ///< share of handle and body that no nearer stone hides, 0..1
   double residual = 0.0;             ///< RMS of what the model leaves, share of the contrast between stone and ice
