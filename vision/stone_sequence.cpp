@@ -8,6 +8,7 @@
 
 #include "vision/crowd_screening.hpp"
 #include "vision/detect/white_light.hpp"
+#include "vision/handle_angle.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -110,7 +111,7 @@ struct StoneSequence::Impl {
   StoneGroups unexplained(const StonePicture& picture, StoneGroupFinder& groups, int count, const Scene& scene);
   void leave_out_asked(cv::Mat rows, int first_row, bool all);
   void forget_refused(Stamp stamp);
-  StonesPercept report(const StoneArea& area, Stamp stamp, Scene& scene) const;
+  StonesPercept report(const StonePicture& picture, const StoneArea& area, Stamp stamp, const Scene& scene) const;
   std::optional<std::size_t> formerly(const JudgedStone& stone, Stamp stamp, const std::vector<bool>& again) const;
   Eigen::Vector2d velocity_of(const Known& before, const Known& now) const;
   void remember(Stamp stamp, const Scene& scene);
@@ -249,7 +250,7 @@ StonesPercept StoneSequence::Impl::look(const cv::Mat& image, Stamp stamp, const
 
   if (diagnosis.followed == 0 || diagnosis.lost > 0) lit.reset();  // it may be the light
   remember(stamp, scene);
-  return report(area, stamp, scene);
+  return report(picture, area, stamp, scene);
 }
 
 StonesPercept StoneSequence::Impl::look_at_all(const cv::Mat& image, Stamp stamp, const Pose& eMc,
@@ -468,13 +469,18 @@ void StoneSequence::Impl::settle(const StonePicture& picture, const std::vector<
   if (!fresh.empty()) fit_together(picture, options, fresh);
 }
 
-StonesPercept StoneSequence::Impl::report(const StoneArea& area, Stamp stamp, Scene& scene) const {
+// After remember(). A handle's direction is asked of stones that run: it tells how they turn.
+StonesPercept StoneSequence::Impl::report(const StonePicture& picture, const StoneArea& area, Stamp stamp,
+                                          const Scene& scene) const {
   StonesPercept seen;
   seen.ok = true;
   seen.stamp = stamp;
-  for (const JudgedStone& s : scene.stones) {
-    const bool ours = s.doubt.empty() && area.contains(s.fit.place);
-    if (ours) seen.stones.push_back(sighting_of(s, setup.teams));
+  std::vector<Eigen::Vector2d> places;
+  for (const NearerStone& s : scene.believed()) places.push_back(s.place);
+  for (const Known& k : known) {
+    if (!k.in_sight || !area.contains(k.seen.fit.place)) continue;
+    seen.stones.push_back(sighting_of(k.seen, setup.teams));
+    if (!k.velocity.isZero()) measure_handle(picture, places, seen.stones.back());
   }
   seen.candidates = static_cast<int>(scene.stones.size());
   seen.refused = seen.candidates - static_cast<int>(seen.stones.size());

@@ -19,13 +19,6 @@ constexpr double behind_house_m = 0.60;  // behind the back line: out of play, b
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
 
-void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone) {
-  const HandleAngle handle = handle_angle(picture, stone, places);
-  if (!handle.ok) return;
-  stone.handle_rad = handle.rad;
-  stone.handle_sigma_rad = handle.sigma_rad;
-}
-
 }  // namespace
 
 struct StoneFinder::Impl {
