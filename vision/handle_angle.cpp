@@ -15,7 +15,8 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float blur_px = 0.65F;
 constexpr float wall_light = 0.65F;  // of what stands upright, as a share of what lies level
-constexpr int directions = 24;       // tried at first, all around: the neck tells the ends apart
+constexpr float wall_light_sigma = 0.2F;
+constexpr int directions = 24;  // tried at first, all around: the neck tells the ends apart
 constexpr int most_steps = 3;
 constexpr float raised_sigma_m = 0.008F;  // what makers leave open
 constexpr float longer_sigma_m = 0.010F;
@@ -23,7 +24,8 @@ constexpr float correlated = 3.0F;  // neighbouring pixels share their noise
 constexpr float edge_px = 0.15F;    // what the pixels of an edge have in common
 constexpr double fewest_pixels = 24.0;
 constexpr double least_visible = 0.6;
-constexpr double least_explained = 0.5;
+constexpr double least_explained = 0.35;
+constexpr double most_lumpy = 7.0;  // of the misfit: noise makes about two
 constexpr double most_sigma_rad = 0.35;
 constexpr float another_rad = 0.35F;     // from here on it is another direction,
 constexpr float as_good_sigmas2 = 9.0F;  // and this much worse than the best may be as good
@@ -58,8 +60,14 @@ class Search {
                        misfits[i] < misfits[(i + directions - 1) % directions] && i != best;
       if (dip && (second == best || misfits[i] < misfits[second])) second = i;
     }
+    settle_walls(turn_of(best), misfits[best] / static_cast<float>(evidence_.used));
     pixel_variance_ = misfits[best] / static_cast<float>(evidence_.used);
     return {turn_of(best), turn_of(second)};
+  }
+
+  double lumpiness(const Refined& best) {
+    misfit(best.at);
+    return evidence_.lumpiness(cover_, wall_light_);
   }
 
   Refined refine(float turn_rad) {
@@ -76,13 +84,18 @@ class Search {
  private:
   static float turn_of(std::size_t i) { return 2.0F * pi * static_cast<float>(i) / directions; }
 
+  void settle_walls(float turn_rad, float variance) {
+    misfit({turn_rad, 0.0F, 0.0F});
+    wall_light_ = evidence_.wall_light(cover_, wall_light, wall_light_sigma, correlated * variance);
+  }
+
   float misfit(const Numbers& at) {
     GripStance stance;
     stance.turn_rad = at[0];
     stance.raised_m = at[1];
     stance.longer_m = at[2];
     cover_by_grip(evidence_.sights, shape_, stance, blur_px, cover_);
-    return evidence_.misfit(cover_, wall_light);
+    return evidence_.misfit(cover_, wall_light_);
   }
 
   float cost(const Numbers& at) {
@@ -127,6 +140,7 @@ class Search {
   GripShape shape_;
   GripCover cover_;
   float pixel_variance_ = 0.0F;
+  float wall_light_ = wall_light;
 };
 
 float noise_of(const Refined& best, const GripEvidence& evidence) {
@@ -175,6 +189,8 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
   angle.sigma_rad = sigma_of(best, evidence);
   if (angle.explained < least_explained) {
     angle.reason = "no grip explains what is seen over the plate";
+  } else if (search.lumpiness(best) > most_lumpy) {
+    angle.reason = "something else is seen over the plate";
   } else if (contradict(best, other, evidence)) {
     angle.reason = "two directions explain it equally well";
   } else if (!(angle.sigma_rad < most_sigma_rad)) {
