@@ -49,6 +49,11 @@ class Search {
  public:
   explicit Search(const GripEvidence& evidence) : evidence_(evidence) {}
 
+  /// A direction that a step or two may make as good as the best.
+  bool is_close(const Refined& best, float turn_rad) {
+    return turn_rad != best.at[0] && misfit({turn_rad, 0.0F, 0.0F}) < 0.5F * (best.cost + evidence_.misfit_of_none());
+  }
+
   /// The best directions of all tried, and another that is better than those beside it.
   std::array<float, 2> rough() {
     std::array<float, directions> misfits{};
@@ -75,9 +80,10 @@ class Search {
     r.cost = cost(r.at);
     for (int i = 0; i < most_steps; ++i) {
       expand(r);
-      if (!advance(r)) return r;
+      if (!advance(r)) break;
     }
     expand(r);
+    correlate(r);
     return r;
   }
 
@@ -105,26 +111,30 @@ class Search {
   }
 
   void expand(Refined& r) {
-    Numbers up;
     for (int i = 0; i < 3; ++i) {
       const Numbers step = probe[i] * Numbers::Unit(i);
-      up[i] = cost(r.at + step);
+      const float up = cost(r.at + step);
       const float down = cost(r.at - step);
-      r.slope[i] = 0.5F * (up[i] - down) / probe[i];
-      r.curvature(i, i) = (up[i] + down - 2.0F * r.cost) / (probe[i] * probe[i]);
+      r.slope[i] = 0.5F * (up - down) / probe[i];
+      r.curvature(i, i) = (up + down - 2.0F * r.cost) / (probe[i] * probe[i]);
+    }
+  }
+
+  // The curvature off its diagonal.
+  void correlate(Refined& r) {
+    for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < i; ++j) {
-        const float both = cost(r.at + step + probe[j] * Numbers::Unit(j));
-        r.curvature(i, j) = r.curvature(j, i) = (both - up[i] - up[j] + r.cost) / (probe[i] * probe[j]);
+        const float both = cost(r.at + probe[i] * Numbers::Unit(i) + probe[j] * Numbers::Unit(j));
+        const float one = r.slope[i] * probe[i] + 0.5F * r.curvature(i, i) * probe[i] * probe[i];
+        const float other = r.slope[j] * probe[j] + 0.5F * r.curvature(j, j) * probe[j] * probe[j];
+        r.curvature(i, j) = r.curvature(j, i) = (both - r.cost - one - other) / (probe[i] * probe[j]);
       }
     }
   }
 
   /// False where nothing better is found.
   bool advance(Refined& r) {
-    Numbers step = -r.curvature.ldlt().solve(r.slope);
-    if (!step.allFinite() || step.dot(r.slope) > 0.0F) {
-      step = -r.slope.cwiseQuotient(r.curvature.diagonal().cwiseAbs().cwiseMax(1e-6F));
-    }
+    Numbers step = -r.slope.cwiseQuotient(r.curvature.diagonal().cwiseAbs().cwiseMax(1e-6F));
     step = step.cwiseMin(longest).cwiseMax(-longest);
     for (const float part : {1.0F, 0.4F}) {
       const float better = cost(r.at + part * step);
@@ -180,7 +190,7 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
   Search search(evidence);
   const std::array<float, 2> rough = search.rough();
   Refined best = search.refine(rough[0]);
-  Refined other = rough[1] == rough[0] ? best : search.refine(rough[1]);
+  Refined other = search.is_close(best, rough[1]) ? search.refine(rough[1]) : best;
   if (other.cost < best.cost) std::swap(best, other);
 
   const float bare = evidence.misfit_of_none();

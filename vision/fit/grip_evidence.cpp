@@ -99,11 +99,12 @@ Chosen pixels_of(const StonePicture& picture, const cv::Rect& area) {
   all.sights.resize(most_pixels);
   const int keep = area.area() / tried_pixels + 1;
   for (int y = area.y; y < area.br().y; ++y) {
+    const SightTable::Row row = table.row(y);
     for (int x = area.x + (keep - (area.x + 3 * y) % keep) % keep; x < area.br().x; x += keep) {
       if (all.count == most_pixels) break;
       all.x[static_cast<std::size_t>(all.count)] = x;
       all.y[static_cast<std::size_t>(all.count)] = y;
-      table.find(x, y, all.count++, all.sights);
+      row.find(x, all.count++, all.sights);
     }
   }
   all.cut_to(all.count);
@@ -172,15 +173,24 @@ class Surroundings {
     Eigen::Vector3f light;
     Eigen::Vector3f either;  ///< from the left one's to the right one's
   };
-  std::optional<Behind> at(int x, int y) const {
-    Eigen::Array3f left;
-    Eigen::Array3f right;
-    if (!mean(window_.left, y, -1.0F, left) || !mean(window_.right, y, 1.0F, right)) return std::nullopt;
+  std::optional<Behind> at(int x, int y) {
+    if (y != row_) look(y);
+    if (!known_) return std::nullopt;
     const float across = (static_cast<float>(x) - window_.left) / (window_.right - window_.left);
-    return Behind{weighed_parts(left + std::clamp(across, 0.0F, 1.0F) * (right - left)), weighed_parts(right - left)};
+    return Behind{left_ + std::clamp(across, 0.0F, 1.0F) * either_, either_};
   }
 
  private:
+  void look(int y) {
+    Eigen::Array3f left;
+    Eigen::Array3f right;
+    row_ = y;
+    known_ = mean(window_.left, y, -1.0F, left) && mean(window_.right, y, 1.0F, right);
+    if (!known_) return;
+    left_ = weighed_parts(left);
+    either_ = weighed_parts(right) - left_;
+  }
+
   bool mean(float x, int y, float sense, Eigen::Array3f& sum) const {
     sum.setZero();
     for (int i = 0; i < 3; ++i) {
@@ -193,6 +203,10 @@ class Surroundings {
 
   const PatchSource& source_;
   Window window_;
+  int row_ = -1;  ///< that was looked at last
+  bool known_ = false;
+  Eigen::Vector3f left_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f either_ = Eigen::Vector3f::Zero();
 };
 
 void weigh_pixel(Eigen::Index i, const Eigen::Vector3f& light, const Eigen::Vector3f& handle,
@@ -282,7 +296,7 @@ GripEvidence grip_evidence(const StonePicture& picture, const GripShape& shape, 
   const Pixels clear = clear_of(picture, shape, place, others, chosen.sights);
 
   const PatchSource source(picture, place);
-  const Surroundings surroundings(source, *window);
+  Surroundings surroundings(source, *window);
   const Eigen::Vector3f hue = weighed_parts(handle.cast<float>().array());
   const Eigen::Vector3f plates = hue * plate_light(source, chosen, on_plate, clear, hue);
   for (Eigen::Index i = 0; i < chosen.count; ++i) {
