@@ -113,6 +113,9 @@ class StoneModel {
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
   bool coloured_ = false;
+  bool looked_behind_ = false;  ///< from there, with the shape of these numbers
+  Eigen::Vector2d looked_at_ = Eigen::Vector2d::Zero();
+  SharedVector looked_with_ = SharedVector::Zero();
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;
