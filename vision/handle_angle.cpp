@@ -15,7 +15,8 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float blur_px = 0.65F;
 constexpr float wall_light = 0.65F;  // of what stands upright, as a share of what lies level
-constexpr int directions = 24;       // tried at first, all around: the neck tells the ends apart
+constexpr float wall_light_sigma = 0.2F;
+constexpr int directions = 24;  // tried at first, all around: the neck tells the ends apart
 constexpr int most_steps = 3;
 constexpr float raised_sigma_m = 0.008F;  // what makers leave open
 constexpr float longer_sigma_m = 0.010F;
@@ -23,7 +24,8 @@ constexpr float correlated = 3.0F;  // neighbouring pixels share their noise
 constexpr float edge_px = 0.15F;    // what the pixels of an edge have in common
 constexpr double fewest_pixels = 24.0;
 constexpr double least_visible = 0.6;
-constexpr double least_explained = 0.5;
+constexpr double least_explained = 0.35;
+constexpr double most_lumpy = 7.0;  // of the misfit: noise makes about two
 constexpr double most_sigma_rad = 0.35;
 constexpr float another_rad = 0.35F;     // from here on it is another direction,
 constexpr float as_good_sigmas2 = 9.0F;  // and this much worse than the best may be as good
@@ -47,6 +49,11 @@ class Search {
  public:
   explicit Search(const GripEvidence& evidence) : evidence_(evidence) {}
 
+  /// A direction that a step or two may make as good as the best.
+  bool is_close(const Refined& best, float turn_rad) {
+    return turn_rad != best.at[0] && misfit({turn_rad, 0.0F, 0.0F}) < 0.5F * (best.cost + evidence_.misfit_of_none());
+  }
+
   /// The best directions of all tried, and another that is better than those beside it.
   std::array<float, 2> rough() {
     std::array<float, directions> misfits{};
@@ -58,8 +65,14 @@ class Search {
                        misfits[i] < misfits[(i + directions - 1) % directions] && i != best;
       if (dip && (second == best || misfits[i] < misfits[second])) second = i;
     }
+    settle_walls(turn_of(best), misfits[best] / static_cast<float>(evidence_.used));
     pixel_variance_ = misfits[best] / static_cast<float>(evidence_.used);
     return {turn_of(best), turn_of(second)};
+  }
+
+  double lumpiness(const Refined& best) {
+    misfit(best.at);
+    return evidence_.lumpiness(cover_, wall_light_);
   }
 
   Refined refine(float turn_rad) {
@@ -67,14 +80,20 @@ class Search {
     r.cost = cost(r.at);
     for (int i = 0; i < most_steps; ++i) {
       expand(r);
-      if (!advance(r)) return r;
+      if (!advance(r)) break;
     }
     expand(r);
+    correlate(r);
     return r;
   }
 
  private:
   static float turn_of(std::size_t i) { return 2.0F * pi * static_cast<float>(i) / directions; }
+
+  void settle_walls(float turn_rad, float variance) {
+    misfit({turn_rad, 0.0F, 0.0F});
+    wall_light_ = evidence_.wall_light(cover_, wall_light, wall_light_sigma, correlated * variance);
+  }
 
   float misfit(const Numbers& at) {
     GripStance stance;
@@ -82,7 +101,7 @@ class Search {
     stance.raised_m = at[1];
     stance.longer_m = at[2];
     cover_by_grip(evidence_.sights, shape_, stance, blur_px, cover_);
-    return evidence_.misfit(cover_, wall_light);
+    return evidence_.misfit(cover_, wall_light_);
   }
 
   float cost(const Numbers& at) {
@@ -92,26 +111,30 @@ class Search {
   }
 
   void expand(Refined& r) {
-    Numbers up;
     for (int i = 0; i < 3; ++i) {
       const Numbers step = probe[i] * Numbers::Unit(i);
-      up[i] = cost(r.at + step);
+      const float up = cost(r.at + step);
       const float down = cost(r.at - step);
-      r.slope[i] = 0.5F * (up[i] - down) / probe[i];
-      r.curvature(i, i) = (up[i] + down - 2.0F * r.cost) / (probe[i] * probe[i]);
+      r.slope[i] = 0.5F * (up - down) / probe[i];
+      r.curvature(i, i) = (up + down - 2.0F * r.cost) / (probe[i] * probe[i]);
+    }
+  }
+
+  // The curvature off its diagonal.
+  void correlate(Refined& r) {
+    for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < i; ++j) {
-        const float both = cost(r.at + step + probe[j] * Numbers::Unit(j));
-        r.curvature(i, j) = r.curvature(j, i) = (both - up[i] - up[j] + r.cost) / (probe[i] * probe[j]);
+        const float both = cost(r.at + probe[i] * Numbers::Unit(i) + probe[j] * Numbers::Unit(j));
+        const float one = r.slope[i] * probe[i] + 0.5F * r.curvature(i, i) * probe[i] * probe[i];
+        const float other = r.slope[j] * probe[j] + 0.5F * r.curvature(j, j) * probe[j] * probe[j];
+        r.curvature(i, j) = r.curvature(j, i) = (both - r.cost - one - other) / (probe[i] * probe[j]);
       }
     }
   }
 
   /// False where nothing better is found.
   bool advance(Refined& r) {
-    Numbers step = -r.curvature.ldlt().solve(r.slope);
-    if (!step.allFinite() || step.dot(r.slope) > 0.0F) {
-      step = -r.slope.cwiseQuotient(r.curvature.diagonal().cwiseAbs().cwiseMax(1e-6F));
-    }
+    Numbers step = -r.slope.cwiseQuotient(r.curvature.diagonal().cwiseAbs().cwiseMax(1e-6F));
     step = step.cwiseMin(longest).cwiseMax(-longest);
     for (const float part : {1.0F, 0.4F}) {
       const float better = cost(r.at + part * step);
@@ -127,6 +150,7 @@ class Search {
   GripShape shape_;
   GripCover cover_;
   float pixel_variance_ = 0.0F;
+  float wall_light_ = wall_light;
 };
 
 float noise_of(const Refined& best, const GripEvidence& evidence) {
@@ -166,7 +190,7 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
   Search search(evidence);
   const std::array<float, 2> rough = search.rough();
   Refined best = search.refine(rough[0]);
-  Refined other = rough[1] == rough[0] ? best : search.refine(rough[1]);
+  Refined other = search.is_close(best, rough[1]) ? search.refine(rough[1]) : best;
   if (other.cost < best.cost) std::swap(best, other);
 
   const float bare = evidence.misfit_of_none();
@@ -175,6 +199,8 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
   angle.sigma_rad = sigma_of(best, evidence);
   if (angle.explained < least_explained) {
     angle.reason = "no grip explains what is seen over the plate";
+  } else if (search.lumpiness(best) > most_lumpy) {
+    angle.reason = "something else is seen over the plate";
   } else if (contradict(best, other, evidence)) {
     angle.reason = "two directions explain it equally well";
   } else if (!(angle.sigma_rad < most_sigma_rad)) {

@@ -194,7 +194,9 @@ void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const 
           const int sum = upper[k] + upper[k + 3] + lower[k] + lower[k + 3] + 2;
           return response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
         };
-        out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
+        // Most of it is ice: its green alone says so.
+        const float green = light(1);
+        out[c] = green < lightest_granite && may_be_granite(light(0), green, light(2)) ? 1 : 0;
       }
     }
   }
@@ -206,15 +208,22 @@ void StoneGroupFinder::mark_centres(const Band& band, int columns, cv::Mat& cent
   const int row_length = static_cast<int>(sums_.step1());
   for (int y = band.top; y < band.bottom; y += band.step) {
     const int* sums = sums_.ptr<int>((y - band.top) / band.step + margin) + margin;
-    for (int c = 0; c < columns / band.step; ++c) {
-      const Extent& e = extent(band.step * c, y);
-      if (!e.seen || e.body.count(sums + c, row_length) < e.least_body) continue;
-      if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
-      for (int i = 0; i < size; ++i) {
-        std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
-        std::fill(out, out + size, std::uint8_t{255});
+    for (int begin = 0; begin < columns / band.step; begin += block_px / band.step) {
+      const Extent& e = extent(band.step * begin, y);
+      const int end = std::min(begin + block_px / band.step, columns / band.step);
+      // Over ice there is no granite for any of a block's places.
+      Rectangle of_all = e.body;
+      of_all.right += end - begin - 1;
+      if (!e.seen || of_all.count(sums + begin, row_length) < e.least_body) continue;
+      for (int c = begin; c < end; ++c) {
+        if (e.body.count(sums + c, row_length) < e.least_body) continue;
+        if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
+        for (int i = 0; i < size; ++i) {
+          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
+          std::fill(out, out + size, std::uint8_t{255});
+        }
+        cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;
       }
-      cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;
     }
   }
 }

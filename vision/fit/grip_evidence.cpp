@@ -12,14 +12,15 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double reach_m = 0.088;       // of a grip about the stone's axis
-constexpr double beside_m = 0.105;      // of the axis: nothing of the grip is seen there any more
-constexpr double neighbour_m = 1.5;     // farther stones are not seen through a grip
-constexpr double least_range_m = 0.3;   // from under the camera
-constexpr float hidden_px = -1.2F;      // so near to another stone nothing is believed
-constexpr float edge_width_px = 4.0F;   // of plate and body against what is behind them
-constexpr float most_granite = 0.25F;   // of a pixel: how light granite is there is not known
-constexpr int tried_pixels = 300;       // of the rectangle about the grip
+constexpr double reach_m = 0.088;      // of a grip about the stone's axis
+constexpr double beside_m = 0.105;     // of the axis: nothing of the grip is seen there any more
+constexpr double neighbour_m = 1.5;    // farther stones are not seen through a grip
+constexpr double least_range_m = 0.3;  // from under the camera
+constexpr float hidden_px = -1.2F;     // so near to another stone nothing is believed
+constexpr float edge_width_px = 4.0F;  // of plate and body against what is behind them
+constexpr float most_granite = 0.25F;  // of a pixel: how light granite is there is not known
+constexpr int tried_pixels = 300;      // of the rectangle about the grip
+constexpr Eigen::Index fewest_plate = 16;
 constexpr float either_noise2 = 0.01F;  // of the two colours that may be behind
 
 struct Window {
@@ -98,11 +99,12 @@ Chosen pixels_of(const StonePicture& picture, const cv::Rect& area) {
   all.sights.resize(most_pixels);
   const int keep = area.area() / tried_pixels + 1;
   for (int y = area.y; y < area.br().y; ++y) {
+    const SightTable::Row row = table.row(y);
     for (int x = area.x + (keep - (area.x + 3 * y) % keep) % keep; x < area.br().x; x += keep) {
       if (all.count == most_pixels) break;
       all.x[static_cast<std::size_t>(all.count)] = x;
       all.y[static_cast<std::size_t>(all.count)] = y;
-      table.find(x, y, all.count++, all.sights);
+      row.find(x, all.count++, all.sights);
     }
   }
   all.cut_to(all.count);
@@ -171,15 +173,24 @@ class Surroundings {
     Eigen::Vector3f light;
     Eigen::Vector3f either;  ///< from the left one's to the right one's
   };
-  std::optional<Behind> at(int x, int y) const {
-    Eigen::Array3f left;
-    Eigen::Array3f right;
-    if (!mean(window_.left, y, -1.0F, left) || !mean(window_.right, y, 1.0F, right)) return std::nullopt;
+  std::optional<Behind> at(int x, int y) {
+    if (y != row_) look(y);
+    if (!known_) return std::nullopt;
     const float across = (static_cast<float>(x) - window_.left) / (window_.right - window_.left);
-    return Behind{weighed_parts(left + std::clamp(across, 0.0F, 1.0F) * (right - left)), weighed_parts(right - left)};
+    return Behind{left_ + std::clamp(across, 0.0F, 1.0F) * either_, either_};
   }
 
  private:
+  void look(int y) {
+    Eigen::Array3f left;
+    Eigen::Array3f right;
+    row_ = y;
+    known_ = mean(window_.left, y, -1.0F, left) && mean(window_.right, y, 1.0F, right);
+    if (!known_) return;
+    left_ = weighed_parts(left);
+    either_ = weighed_parts(right) - left_;
+  }
+
   bool mean(float x, int y, float sense, Eigen::Array3f& sum) const {
     sum.setZero();
     for (int i = 0; i < 3; ++i) {
@@ -192,6 +203,10 @@ class Surroundings {
 
   const PatchSource& source_;
   Window window_;
+  int row_ = -1;  ///< that was looked at last
+  bool known_ = false;
+  Eigen::Vector3f left_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f either_ = Eigen::Vector3f::Zero();
 };
 
 void weigh_pixel(Eigen::Index i, const Eigen::Vector3f& light, const Eigen::Vector3f& handle,
@@ -210,14 +225,50 @@ void weigh_pixel(Eigen::Index i, const Eigen::Vector3f& light, const Eigen::Vect
   e.behind_behind[i] = product(behind, behind);
 }
 
+/// The middle one of the plate's pixels, of which a grip covers a few, says how light it is; its hue is known.
+float plate_light(const PatchSource& source, const Chosen& chosen, const Pixels& on_plate, const Pixels& clear,
+                  const Eigen::Vector3f& handle) {
+  std::array<float, most_pixels> lights{};
+  auto end = lights.begin();
+  for (Eigen::Index i = 0; i < chosen.count; ++i) {
+    if (clear[i] == 0.0F || on_plate[i] < 1.0F) continue;
+    const auto k = static_cast<std::size_t>(i);
+    *end++ = weighed_parts(source.at(chosen.x[k], chosen.y[k])).dot(handle) / std::max(1e-6F, handle.squaredNorm());
+  }
+  if (end - lights.begin() < fewest_plate) return 1.0F;
+  const auto middle = lights.begin() + (end - lights.begin()) / 2;
+  std::nth_element(lights.begin(), middle, end);
+  return std::clamp(*middle, 0.6F, 1.5F);
+}
+
 }  // namespace
 
-float GripEvidence::misfit(const GripCover& cover, float wall_light) const {
+float GripEvidence::wall_light(const GripCover& cover, float expected, float sigma, float variance) const {
+  const float prior = variance / (sigma * sigma);
+  const Pixels all = cover.top + cover.side;
+  const float right = (weight * cover.side * (seen_handle + all * handle_behind - cover.top * handle_handle)).sum();
+  const float left = (weight * cover.side.square() * handle_handle).sum();
+  return std::clamp((right + prior * expected) / (left + prior), 0.2F, 1.2F);
+}
+
+double GripEvidence::lumpiness(const GripCover& cover, float wall_light) const {
+  const Pixels all = misfits(cover, wall_light);
+  std::array<float, most_pixels> sizes{};
+  auto end = sizes.begin();
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (weight[i] > 0.0F) *end++ = all[i];
+  }
+  if (end == sizes.begin()) return 0.0;
+  const auto middle = sizes.begin() + (end - sizes.begin()) / 2;
+  std::nth_element(sizes.begin(), middle, end);
+  return double{all.sum()} / static_cast<double>(end - sizes.begin()) / std::max(1e-9, double{*middle});
+}
+
+Pixels GripEvidence::misfits(const GripCover& cover, float wall_light) const {
   const Pixels lit = cover.top + wall_light * cover.side;
   const Pixels all = cover.top + cover.side;
-  return (weight * (seen_seen + lit * (lit * handle_handle - 2.0F * seen_handle) +
-                    all * (all * behind_behind + 2.0F * seen_behind) - 2.0F * lit * all * handle_behind))
-      .sum();
+  return weight * (seen_seen + lit * (lit * handle_handle - 2.0F * seen_handle) +
+                   all * (all * behind_behind + 2.0F * seen_behind) - 2.0F * lit * all * handle_behind);
 }
 
 GripEvidence grip_evidence(const StonePicture& picture, const GripShape& shape, const Eigen::Vector2d& place,
@@ -245,8 +296,9 @@ GripEvidence grip_evidence(const StonePicture& picture, const GripShape& shape, 
   const Pixels clear = clear_of(picture, shape, place, others, chosen.sights);
 
   const PatchSource source(picture, place);
-  const Surroundings surroundings(source, *window);
-  const Eigen::Vector3f plates = weighed_parts(handle.cast<float>().array());
+  Surroundings surroundings(source, *window);
+  const Eigen::Vector3f hue = weighed_parts(handle.cast<float>().array());
+  const Eigen::Vector3f plates = hue * plate_light(source, chosen, on_plate, clear, hue);
   for (Eigen::Index i = 0; i < chosen.count; ++i) {
     if (clear[i] == 0.0F || on_granite[i] > most_granite) continue;
     const int x = chosen.x[static_cast<std::size_t>(i)];

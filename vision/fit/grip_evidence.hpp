@@ -20,9 +20,19 @@ struct GripEvidence {
   double used = 0.0;     ///< pixels of some weight
   double visible = 0.0;  ///< their share of all that were looked at
 
+  /// The light of what stands upright, as a share of the plate's, that fits best with a grip that covers so much; near
+  /// `expected`.
+  float wall_light(const GripCover& cover, float expected, float sigma, float variance) const;
+
+  /// How much of the misfit lies in few pixels: its mean as a multiple of its median. Noise makes about two.
+  double lumpiness(const GripCover& cover, float wall_light) const;
+
   /// Weighed square of what is left unexplained by a grip that covers so much, or by none.
-  float misfit(const GripCover& cover, float wall_light) const;
+  float misfit(const GripCover& cover, float wall_light) const { return misfits(cover, wall_light).sum(); }
   float misfit_of_none() const { return (weight * seen_seen).sum(); }
+
+ private:
+  Pixels misfits(const GripCover& cover, float wall_light) const;
 };
 
 /// `handle` is the plate's light against white ice. Pixels that one of the `others`' stones covers are left out.

@@ -6,24 +6,19 @@ namespace hogline::vision {
 namespace {
 
 constexpr float least_px = 1e-6F;
-constexpr float smooth_widths = 4.47F;  // a smooth step's width, in deviations of the blur it stands for
+constexpr float ramp_widths = 3.46F;  // a ramp's width, in deviations of the blur it stands for
 
-/// An edge through a blur; `d` in widths of the step, positive inside.
-Pixels step(const Pixels& d) {
-  const Pixels t = (d + 0.5F).max(0.0F).min(1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
-
-/// A strip of the given half width about 0.
+/// A strip of the given half width about 0, through a blur: edges are ramps.
 Pixels strip(const Pixels& at, float half, float per_width) {
-  return step((half - at) * per_width) + step((half + at) * per_width) - 1.0F;
+  const float inside = half * per_width + 0.5F;
+  return (inside - at * per_width).max(0.0F).min(1.0F) + (inside + at * per_width).max(0.0F).min(1.0F) - 1.0F;
 }
 
 /// The bar's own axes at a stance: u along it, v to its left.
 struct BarAxes {
   Pixels u, v;
   float away_u, away_v;
-  float per_width_u, per_width_v;  ///< steps' widths per metre
+  float per_width_u, per_width_v;  ///< ramps' widths per metre
 
   BarAxes(const GripSights& sights, const GripStance& stance, float blur_px) {
     const float c = std::cos(stance.turn_rad);
@@ -35,7 +30,7 @@ struct BarAxes {
     v = left.x() * (sights.x + lift.x()) + left.y() * (sights.y + lift.y());
     away_u = along.dot(sights.away);
     away_v = left.dot(sights.away);
-    const float width_px = smooth_widths * blur_px;
+    const float width_px = ramp_widths * blur_px;
     per_width_u = 1.0F / (width_px * std::max(least_px, (sights.by_pixel.transpose() * along).norm()));
     per_width_v = 1.0F / (width_px * std::max(least_px, (sights.by_pixel.transpose() * left).norm()));
   }

@@ -46,10 +46,10 @@ class Sieve {
     resize(kept_, most_pixels);
   }
 
-  void add(int x, int y, const SightTable& sights) {
+  void add(int x, int y, const SightTable::Row& sights) {
     columns_[static_cast<std::size_t>(waiting_)] = x;
     rows_[static_cast<std::size_t>(waiting_)] = y;
-    sights.find(x, y, waiting_, tried_);
+    sights.find(x, waiting_, tried_);
     if (++waiting_ == most_pixels) settle();
   }
 
@@ -148,7 +148,8 @@ bool sift(const SheetCamera& camera, const StonePlace& stone, const cv::Rect& ar
     const SightTable sights(camera, area);
     for (int y = area.y; y < area.br().y && sights.ok(); ++y) {
       const int first = area.x + (keep - (area.x + 3 * y) % keep) % keep;
-      for (int x = first; x < area.br().x; x += keep) sieve.add(x, y, sights);
+      const SightTable::Row row = sights.row(y);
+      for (int x = first; x < area.br().x; x += keep) sieve.add(x, y, row);
     }
   }
   return sieve.finish();
