@@ -28,6 +28,16 @@ constexpr double heading_sigma_rad = 0.03 * std::numbers::pi / 180.0;
 constexpr double spin_radps = 1.5;
 constexpr double speed_reserve_mps = 0.1;
 
+/// Of the worst seen stone in the house, in any direction.
+double house_sigma_m(const std::vector<StoneSighting>& counted) {
+  double sigma_m = 0.0;
+  for (const StoneSighting& s : counted) {
+    if (std::hypot(s.x_m, s.y_m) > servo::in_sheet::house_radius_m + servo::in_sheet::stone_radius_m) continue;
+    sigma_m = std::max(sigma_m, std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2)));
+  }
+  return sigma_m;
+}
+
 std::string words(const game::Turn& turn) {
   return fmt::format("stone {} of team {}", turn.stone + 1, side_of(turn.team) + 1);
 }
@@ -218,6 +228,7 @@ ThrowReport RobotsThrow::ended() {
   StonesAfter after = stones_after(seen);
   record_.report.seen = after.stones;
   record_.remarks.insert(record_.remarks.end(), after.remarks.begin(), after.remarks.end());
+  if (record_.counted) record_.report.seen_sigma_m = house_sigma_m(*record_.counted);
   learn();
   return closed(ThrowEnd::thrown, {});
 }

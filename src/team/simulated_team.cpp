@@ -19,6 +19,12 @@ TeamRequest for_eyes(TeamRequest request) {
   return request;
 }
 
+hw::sim::Scenario skip_scenario(const TeamRequest& request) {
+  hw::sim::Scenario scenario = request.scenario;
+  scenario.near_camera.rate_hz = scenario.skip->far_camera.rate_hz = request.skip_hz;
+  return scenario;
+}
+
 /// Keeps what there is to show.
 class KeepingSeer final : public SkipSeer {
  public:
@@ -46,7 +52,7 @@ class KeepingSeer final : public SkipSeer {
 SimulatedTeam::SimulatedTeam(const TeamRequest& request)
     : request_(request),
       robot_(for_eyes(request).thrower, request.scenario, request.render_threads),
-      skip_robot_(for_eyes(request).skip, request.scenario, request.render_threads),
+      skip_robot_(for_eyes(request).skip, skip_scenario(request), request.render_threads),
       rink_(robot_.rink(), skip_robot_.rink(), request.scenario.robot, request.scenario.seed),
       crew_(rink_, request.scenario.sheet.width_m, request.scenario.stone.radius_m),
       team_(robot_.rink().clock(), link_latency),

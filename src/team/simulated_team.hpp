@@ -19,6 +19,7 @@ struct TeamRequest {
   config::SkipRig skip;
   hw::sim::Scenario scenario;  ///< with its skip
   Eyes eyes = Eyes::oracle;    ///< of both
+  double skip_hz = 20.0;       ///< of the skip's two cameras; the thrower's are the scenario's
   int render_threads = 2;
 };
 

@@ -8,12 +8,11 @@
 namespace hogline::test {
 
 inline TeamRequest practice_team(std::uint64_t seed) {
-  TeamRequest request{.thrower = config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig"),
-                      .skip = load_skip_rig_or_practice(""),
-                      .scenario = load_skip_scenario("", seed),
-                      .eyes = Eyes::oracle,
-                      .render_threads = 1};
-  set_rates(request.scenario, 20.0, 20.0);
+  TeamRequest request;
+  request.thrower = config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig");
+  request.skip = load_skip_rig_or_practice("");
+  request.scenario = load_skip_scenario("", seed);
+  request.render_threads = 1;
   return request;
 }
 
