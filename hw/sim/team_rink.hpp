@@ -35,6 +35,7 @@ class TeamRink {
   std::optional<std::size_t> thrown() const { return skip_.thrown(); }
   const StoneField& field() const { return skip_.field(); }
   /// A person's hand.
+  void lay(const FieldStone& stone) { skip_.field().add(stone); }
   void take_off(std::size_t number) { skip_.field().take_off(number); }
   void take_all_off() { skip_.take_all_off(); }  ///< their numbers begin anew
   void put(std::size_t number, double x_m, double y_m) { skip_.field().put(number, x_m, y_m); }

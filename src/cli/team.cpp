@@ -7,6 +7,7 @@
 #include "src/game_command.hpp"
 #include "src/keys_command.hpp"
 #include "src/link_command.hpp"
+#include "src/turn_command.hpp"
 
 namespace hogline::cli {
 
@@ -29,7 +30,52 @@ void add_robots(CLI::App* app, TeamOptions& options) {
       ->check(CLI::Range(0.0, 120.0));
 }
 
+void add_turn_options(CLI::App* app, TurnOptions& options) {
+  add_robots(app, options.team);
+  app->add_option("--stones", options.stones, "so many of the end's stones lie in the house or before it")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 15));
+  app->add_option("--out", options.out, "folder for pictures and turn.json")->capture_default_str();
+}
+
 }  // namespace
+
+void add_turn(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<TurnOptions>();
+  TurnOptions& options = *kept;
+  auto* turn =
+      app.add_subcommand("turn", "one turn of both robots on the simulated rink: look, decide, throw, follow, count");
+  add_turn_options(turn, options);
+  turn->add_option("--strategist", options.strategist, "who decides: built-in, or dc:PORT")
+      ->capture_default_str()
+      ->check(known_strategist);
+  turn->add_option("--address", options.address, "where a Digital Curling client may connect: an IPv4 address of ours")
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
+  turn->footer(
+      "Examples:\n"
+      "  hogline turn --seed 3 --stones 6\n"
+      "  hogline turn --seer rendered --out out/turn\n"
+      "Stones lie where the seed puts them. doc/strategy.md says what happens in a turn.\n"
+      "Exit status: 0 thrown and followed to its end, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  turn->callback([kept, &chosen] { chosen = [kept] { return run_turn(*kept); }; });
+}
+
+void add_demo(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<TurnOptions>();
+  TurnOptions& options = *kept;
+  options.team.seer = "rendered";
+  options.out = "out/demo";
+  auto* demo = app.add_subcommand("demo", "one turn of both robots in rendered pictures, with a report");
+  add_turn_options(demo, options);
+  demo->footer(
+      "Example:\n"
+      "  hogline demo --out out/demo\n"
+      "Exit status: 0 thrown and followed to its end, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk).");
+  demo->callback([kept, &chosen] { chosen = [kept] { return run_demo(*kept); }; });
+}
 
 void add_game(CLI::App& app, Chosen& chosen) {
   const auto kept = std::make_shared<GameOptions>();

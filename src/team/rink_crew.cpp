@@ -19,6 +19,21 @@ servo::SlidingStone in_sheet(const hw::sim::StoneTruth& s) {
 RinkCrew::RinkCrew(hw::sim::TeamRink& rink, double sheet_width_m, double stone_radius_m)
     : rink_(rink), half_width_m_(0.5 * sheet_width_m), radius_m_(stone_radius_m) {}
 
+void RinkCrew::lay(const servo::Board& board) {
+  rink_.take_all_off();
+  names_.clear();
+  for (const std::size_t side : {0u, 1u}) {
+    for (std::size_t i = 0; i < servo::stones_each; ++i) {
+      const auto& stone = board.stones[side][i];
+      if (!stone) continue;
+      const servo::Place at = in_skip_frame(*stone);
+      rink_.lay(
+          {.motion = {.x_m = at.x_m, .y_m = at.y_m, .handle_rad = stone->angle_rad}, .team = static_cast<int>(side)});
+      names_.emplace_back(StoneName{side, i});
+    }
+  }
+}
+
 void RinkCrew::prepare(const servo::Board& board, const StoneName& next) {
   next_ = next;
   for (std::size_t i = 0; i < names_.size(); ++i) tidy(i, board);

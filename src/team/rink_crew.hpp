@@ -26,6 +26,8 @@ class RinkCrew {
   /// What the board does not have is taken off the sheet; what a throw that does not count has moved is put where it
   /// was before; the robot goes back, and this stone to it. Precondition: nothing moves.
   void prepare(const servo::Board& board, const StoneName& next);
+  /// The stones of this board are on the sheet, and no others. Precondition: nothing has been thrown.
+  void lay(const servo::Board& board);
   /// Once a control period.
   void watch();
   bool all_at_rest() const { return !rink_.stone_runs(); }

@@ -26,6 +26,7 @@ constexpr Duration count_limit = std::chrono::seconds(30);
 constexpr double speed_sigma_mps = 0.006;  // doc/performance.md: its campaigns
 constexpr double heading_sigma_rad = 0.03 * std::numbers::pi / 180.0;
 constexpr double spin_radps = 1.5;
+constexpr int path_periods = 20;
 constexpr double speed_reserve_mps = 0.1;
 
 /// Of the worst seen stone in the house, in any direction.
@@ -84,10 +85,17 @@ void RobotsThrow::enter(Phase phase, const std::string& what) {
   if (progress_) progress_(seconds(since_ - began_), what);
 }
 
+void RobotsThrow::watch_truth() {
+  if (!judge_ || !team_.thrower().loop()) return;
+  const hw::sim::Truth& truth = team_.robot().rink().truth();
+  judge_->watch(truth, team_.thrower().loop()->thrower());
+  if (++periods_ % path_periods != 0) return;
+  record_.robot_path.push_back({truth.body.x_m, truth.body.y_m});
+  if (truth.release) record_.stone_path.push_back({truth.stone.x_m, truth.stone.y_m});
+}
+
 std::optional<ThrowReport> RobotsThrow::advance() {
-  if (judge_ && team_.thrower().loop()) {
-    judge_->watch(team_.robot().rink().truth(), team_.thrower().loop()->thrower());
-  }
+  watch_truth();
   switch (phase_) {
     case Phase::idle:
       return std::nullopt;
@@ -110,6 +118,7 @@ std::optional<ThrowReport> RobotsThrow::advance() {
 std::optional<ThrowReport> RobotsThrow::prepare_attempt() {
   ++record_.attempts;
   judge_.reset();
+  record_.robot_path.clear();
   team_.crew().prepare(record_.turn.board, {side_of(record_.turn.team), record_.turn.stone});
   record_.true_before = team_.crew().lying();
   team_.thrower().load();

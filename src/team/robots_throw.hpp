@@ -41,9 +41,11 @@ struct TurnRecord {
   std::optional<std::vector<StoneSighting>> counted;
   servo::IceEstimate ice;  ///< afterwards
   std::optional<IceLesson> lesson;
-  TrueThrow truth;           ///< what no robot was told
-  servo::Board true_before;  ///< where the stones lay
-  ThrowResult thrower;       ///< against the truth
+  TrueThrow truth;                       ///< what no robot was told
+  servo::Board true_before;              ///< where the stones lay
+  ThrowResult thrower;                   ///< against the truth
+  std::vector<servo::Place> robot_path;  ///< in truth, in the thrower's e; of the last attempt
+  std::vector<servo::Place> stone_path;
   double simulated_s = 0.0;
   double wall_s = 0.0;
 };
@@ -76,6 +78,7 @@ class RobotsThrow final : public game::StoneThrower {
   game::ThrowReport ended();
   game::ThrowReport closed(game::ThrowEnd end, const std::string& reason);
   void learn();
+  void watch_truth();
 
   SimulatedTeam& team_;
   servo::ThrowerSkill skill_;
@@ -86,6 +89,7 @@ class RobotsThrow final : public game::StoneThrower {
   Stamp since_{};
   Stamp began_{};
   std::uint32_t shot_ = 0;
+  int periods_ = 0;
   TurnRecord record_;
   std::vector<std::optional<StoneName>> names_;
   std::optional<ThrowJudge> judge_;

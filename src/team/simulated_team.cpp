@@ -9,6 +9,7 @@
 namespace hogline {
 namespace {
 
+constexpr double mid_sheet_m = 12.0;
 constexpr Duration link_latency = std::chrono::milliseconds(2);  // doc/link.md: p99 of a release between two processes
 
 TeamRequest for_eyes(TeamRequest request) {
@@ -38,7 +39,8 @@ class KeepingSeer final : public SkipSeer {
   }
   FarPercept far_view(const hw::Frame& frame, const servo::HeadAngles& q, const servo::SkipDiagnosis& known) override {
     FarPercept seen = seer_->far_view(frame, q, known);
-    if (seen.ok && !seen.stones.empty()) sights_.far = {frame, seen};
+    const bool mid_sheet = known.thrown && known.thrown->y_m > mid_sheet_m;
+    if (seen.ok && !seen.stones.empty() && mid_sheet) sights_.far = {frame, seen};
     return seen;
   }
 

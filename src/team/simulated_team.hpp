@@ -34,7 +34,7 @@ struct SkipSights {
     FarPercept seen;
   };
   std::optional<Near> house;  ///< the newest in which sheet and stones were seen
-  std::optional<Far> far;     ///< the newest in which a stone was seen
+  std::optional<Far> far;     ///< the newest in which the thrown stone was seen in mid-sheet
 };
 
 class SimulatedTeam {
