@@ -14,6 +14,7 @@ void add_stones(CLI::App& app, Chosen& chosen);
 void add_board(CLI::App& app, Chosen& chosen);
 void add_throw(CLI::App& app, Chosen& chosen);
 void add_demo(CLI::App& app, Chosen& chosen);
+void add_turn(CLI::App& app, Chosen& chosen);
 void add_doctor(CLI::App& app, Chosen& chosen);
 void add_game(CLI::App& app, Chosen& chosen);
 void add_faults(CLI::App& app, Chosen& chosen);
