@@ -29,10 +29,16 @@ hw::SocketCanConfig robot_bus_config(const std::string& interface, std::span<con
 
 RobotBus::RobotBus(const config::Rig& rig, std::span<const std::uint8_t> nodes, std::uint8_t master_node,
                    hw::BusDuties duties, Stamp now) {
+  open(rig, robot_bus_config(rig.can_interface, nodes, master_node, duties), now);
+}
+
+RobotBus::RobotBus(const config::Rig& rig, Stamp now) { open(rig, {.interface = rig.can_interface}, now); }
+
+void RobotBus::open(const config::Rig& rig, const hw::SocketCanConfig& kernel, Stamp now) {
   if (rig.can_udp) {
     udp_.emplace(*rig.can_udp, now);
   } else if (!rig.can_interface.empty()) {
-    kernel_.emplace(robot_bus_config(rig.can_interface, nodes, master_node, duties), now);
+    kernel_.emplace(kernel, now);
   } else {
     throw config::ConfigError(rig.file, 0, "can.interface", "",
                               "missing; the robot's drives are on a CAN interface of this machine, e.g. can0");

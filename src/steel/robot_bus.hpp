@@ -23,6 +23,9 @@ class RobotBus {
   RobotBus(const config::Rig& rig, std::span<const std::uint8_t> nodes, std::uint8_t master_node, hw::BusDuties duties,
            Stamp now);
 
+  /// The devices' end: hears everything. Throws ConfigError where the rig names no bus.
+  RobotBus(const config::Rig& rig, Stamp now);
+
   /// Every control period, before anything is received or sent.
   void step(Stamp now);
   hw::CanBus& bus();
@@ -30,6 +33,8 @@ class RobotBus {
   const hw::SocketCanState* kernel_state() const { return kernel_ ? &kernel_->state() : nullptr; }
 
  private:
+  void open(const config::Rig& rig, const hw::SocketCanConfig& kernel, Stamp now);
+
   std::optional<hw::SocketCanBus> kernel_;
   std::optional<hw::UdpCanBus> udp_;
 };
