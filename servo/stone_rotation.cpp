@@ -216,9 +216,6 @@ StoneRotation rotation_of(const std::vector<HandleLook>& looks, const StonePath&
   if (looks.back().after_s - looks.front().after_s < least_span_s) return unknown("the handle was seen too shortly");
   const std::vector<Row> rows = rows_of(looks, path);
   const Best best = best_of(rows);
-  fprintf(stderr, "ROT n %zu span %.2f spin %.3f loss %.2f agr %.3f alone %d sig %.3f\n", rows.size(),
-          rows.back().after_s - rows.front().after_s, best.turn.spin_radps, best.turn.loss, best.turn.agreement,
-          best.alone, rows[0].sigma_rad);
   if (best.turn.agreement < least_agreement) return unknown("the handle's directions do not make one turn");
   if (!best.alone) return unknown("the handle was hidden for too long: several rates agree with what was seen");
   return refined(rows, best.turn);
