@@ -75,6 +75,17 @@ class Search {
     return evidence_.lumpiness(cover_, wall_light_);
   }
 
+  /// The most of a grip that may be there in any direction, two sigmas granted.
+  double most_present() {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < directions; ++i) {
+      cover_by_grip(evidence_.sights, shape_, {.turn_rad = turn_of(i)}, blur_px, cover_);
+      const auto seen = evidence_.presence(cover_, wall_light, correlated * pixel_variance_);
+      most = std::max(most, seen.share + 2.0F * seen.sigma);
+    }
+    return double{most};
+  }
+
   Refined refine(float turn_rad) {
     Refined r{{turn_rad, 0.0F, 0.0F}};
     r.cost = cost(r.at);
@@ -189,6 +200,7 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
 
   Search search(evidence);
   const std::array<float, 2> rough = search.rough();
+  angle.present = search.most_present();
   Refined best = search.refine(rough[0]);
   Refined other = search.is_close(best, rough[1]) ? search.refine(rough[1]) : best;
   if (other.cost < best.cost) std::swap(best, other);

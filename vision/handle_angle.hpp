@@ -18,6 +18,8 @@ struct HandleAngle {
                      ///< the same from both ends, and makers put the neck in different places
   double sigma_rad = 0.0;  ///< standard deviation
   double explained = 0.0;  ///< share of what is seen over the plate that a grip explains, 0..1
+  double present = 1.0;    ///< at most so much of a grip is seen there, in any direction: 0 none, 1 all of it; 1 where
+                           ///< that can not be told
   double visible = 0.0;    ///< share of the pixels that a grip may cover and that could be used, 0..1
 };
 

@@ -9,6 +9,7 @@
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
+#include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -18,12 +19,25 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
+constexpr double least_grip = 0.5;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
+constexpr double alike = 0.15;      // of the light's difference from ice
 
-void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone) {
-  const HandleAngle handle = handle_angle(picture, stone, places);
-  if (!handle.ok) return;
-  stone.handle_rad = handle.rad;
-  stone.handle_sigma_rad = handle.sigma_rad;
+std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
+  std::vector<Eigen::Vector2d> places;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) places.push_back(s.fit.place);
+  }
+  return places;
+}
+
+/// What stands on the ice ends at its foot and at its grip. Seen from above, paint below a stone of its own colour is
+/// not rare, and somebody may stand behind one: both together are a person.
+std::string doubt_of_a_person(const StonePicture& picture, const JudgedStone& stone,
+                              const std::vector<Eigen::Vector2d>& places) {
+  std::vector<NearerStone> nearer;
+  for (const Eigen::Vector2d& p : places) nearer.push_back({p});
+  const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
+  return around.granite_below && around.handle_above ? "it goes on below the foot and above the grip" : std::string();
 }
 
 }  // namespace
@@ -38,6 +52,8 @@ struct StoneFinder::Impl {
 
   std::string unusable(const cv::Mat& image) const;
   StoneArea area(std::optional<double> sheet_width_m) const;
+  std::string report(const StonePicture& picture, const JudgedStone& stone, const std::vector<Eigen::Vector2d>& places,
+                     StonesPercept& seen) const;
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
@@ -80,14 +96,13 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   compare_granite(stones);
   part_overlapping(picture, stones);
 
-  std::vector<Eigen::Vector2d> places;
+  const std::vector<Eigen::Vector2d> places = places_of(stones);
   for (JudgedStone& s : stones) {
-    if (s.doubt.empty()) places.push_back(s.fit.place);
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
+    if (s.doubt.empty()) s.doubt = doubt_of_a_person(picture, s, places);
+    if (s.doubt.empty()) s.doubt = impl_->report(picture, s, places, seen);
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
   }
-  for (StoneSighting& s : seen.stones) measure_handle(picture, places, s);
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
   seen.groups = static_cast<int>(groups.boxes.size());
@@ -114,6 +129,20 @@ StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;
   area.max_y_m = rules::tee_to_hog_m + behind_hog_m;
   return area;
+}
+
+// The grip belongs to a stone: what is painted on the ice, for whatever eye, has nothing over its rim.
+std::string StoneFinder::Impl::report(const StonePicture& picture, const JudgedStone& stone,
+                                      const std::vector<Eigen::Vector2d>& places, StonesPercept& seen) const {
+  StoneSighting sighting = sighting_of(stone, setup.teams);
+  const HandleAngle handle = handle_angle(picture, sighting, places);
+  if (handle.present < least_grip) return "no grip over the plate";
+  if (handle.ok) {
+    sighting.handle_rad = handle.rad;
+    sighting.handle_sigma_rad = handle.sigma_rad;
+  }
+  seen.stones.push_back(sighting);
+  return {};
 }
 
 // All together: stones that hide each other, and the shape they share.
