@@ -22,7 +22,6 @@ constexpr double light_s = 0.25;          // lamps do not change faster, unless 
 constexpr double light_turn_rad = 0.008;  // nor does what a block of the picture shows of the ice
 constexpr double most_speed_mps = 5.0;
 constexpr double running_mps = 0.3;
-constexpr double handle_range_m = 26.0;   // farther away a grip is a few pixels high, and seen nearly from the side
 constexpr double handle_period_s = 0.06;  // a stone turns by a tenth of a turn in it
 
 }  // namespace
@@ -233,7 +232,7 @@ void FarSequence::Impl::measure_handles(Stamp stamp, FarPercept& seen) {
       return k.stamp == stamp && k.followed && k.velocity.norm() > running_mps && k.seen.fit.place == places[i];
     });
     if (!near_enough || !runs) continue;
-    measure_handle(picture, places, seen.stones[i]);
+    measure_turning_handle(picture, places, seen.stones[i]);
     handles_at = stamp;
   }
 }

@@ -5,6 +5,7 @@
 
 #include "vision/far_view/far_verdict.hpp"
 #include "vision/far_view/far_view_impl.hpp"
+#include "vision/handle_angle.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -116,6 +117,12 @@ FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan&
   const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}}, area);
 
   report(stones, seen);
+  const StonePicture whole = levels[0].picture(response, setup.shape);
+  std::vector<Eigen::Vector2d> places;
+  for (const StoneSighting& s : seen.stones) places.emplace_back(s.x_m, s.y_m);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if ((places[i] - whole.eye().head<2>()).norm() < handle_range_m) measure_handle(whole, places, seen.stones[i]);
+  }
   if (sketch == nullptr) return seen;
   for (const JudgedStone& s : stones) {
     const auto pixel = levels[0].camera->project({s.fit.place.x(), s.fit.place.y(), setup.shape.handle_height_m});

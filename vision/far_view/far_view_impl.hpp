@@ -70,6 +70,9 @@ struct FarView::Impl {
   StoneScreening screening;
 };
 
+/// Farther away a grip is a few pixels high, and seen nearly from the side.
+inline constexpr double handle_range_m = 26.0;
+
 /// For single looks, and for stones that were seen a moment ago.
 ScreeningOptions careful_screening();
 ScreeningOptions quick_screening();
