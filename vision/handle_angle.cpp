@@ -222,4 +222,11 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
   return angle;
 }
 
+void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone) {
+  const HandleAngle handle = handle_angle(picture, stone, places);
+  if (!handle.ok) return;
+  stone.handle_rad = handle.rad;
+  stone.handle_sigma_rad = handle.sigma_rad;
+}
+
 }  // namespace hogline::vision

@@ -30,4 +30,7 @@ struct HandleAngle {
 HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone,
                          const std::vector<Eigen::Vector2d>& others = {});
 
+/// The same into a sighting; what can not be measured is left empty.
+void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone);
+
 }  // namespace hogline::vision

@@ -51,7 +51,6 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   std::string unusable(const cv::Mat& image) const;
-  StoneArea area(std::optional<double> sheet_width_m) const;
   std::string report(const StonePicture& picture, const JudgedStone& stone, const std::vector<Eigen::Vector2d>& places,
                      StonesPercept& seen) const;
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
@@ -77,7 +76,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   seen.reason = impl_->unusable(image);
   if (!seen.reason.empty()) return seen;
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
-  const StoneArea area = impl_->area(sheet_width_m);
+  const StoneArea area = stone_area(sheet_width_m);
 
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
@@ -101,7 +100,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
     if (s.doubt.empty()) s.doubt = doubt_of_a_person(picture, s, places);
     if (s.doubt.empty()) s.doubt = impl_->report(picture, s, places, seen);
-    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
+    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
@@ -122,8 +121,9 @@ std::string StoneFinder::Impl::unusable(const cv::Mat& image) const {
   return {};
 }
 
-// Where a stone of this sheet can lie: its centre between the sidelines. A stone that touches one is out, but ours.
-StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
+StoneGroupFinder& StoneFinder::groups() { return impl_->groups; }
+
+StoneArea stone_area(std::optional<double> sheet_width_m) {
   StoneArea area;
   area.half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m) + beside_m;
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;

@@ -114,17 +114,38 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
 
 StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) {
   StoneGroups groups;
+  begin(bgr, groups);
+  for (const Band& band : bands_) {
+    if (band.bottom <= band.top) continue;
+    find_granite(band, bgr, ice, response);
+    cv::integral(granite_, sums_, CV_32S);
+    mark_centres(band, bgr.cols, groups.centres);
+  }
+  groups.boxes = boxes_of(bgr.size());
+  return groups;
+}
+
+void StoneGroupFinder::begin(const cv::Mat& bgr, StoneGroups& groups) {
   groups.top = top_;
   groups.centres.create((bgr.rows - top_) / 2, bgr.cols / 2, CV_8UC1);
   groups.centres.setTo(0);
   cells_.create((bgr.rows - top_) / cell_px + 1, bgr.cols / cell_px + 1, CV_8UC1);
   cells_.setTo(0);
-  for (const Band& band : bands_) {
+}
+
+StoneGroups StoneGroupFinder::find_unexplained(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
+                                               const GroupSearch& search) {
+  StoneGroups groups;
+  begin(bgr, groups);
+  for (Band band : bands_) {
+    band.top = std::max(band.top, search.first_row / 4 * 4);
+    band.bottom = std::min(band.bottom, search.last_row / 4 * 4);
     if (band.bottom <= band.top) continue;
     find_granite(band, bgr, ice, response);
+    for (const auto& outline : search.explained) leave_out(band, outline);
+    cv::integral(granite_, sums_, CV_32S);
     mark_centres(band, bgr.cols, groups.centres);
   }
-  groups.boxes = boxes_of(bgr.size());
   return groups;
 }
 
@@ -134,6 +155,28 @@ void StoneGroupFinder::find_whites(const WhiteLight& ice, int columns, int y) {
     const auto white = ice.at(x + white_px / 2, y + white_px / 2);
     per_white_.push_back({1.0F / white[0], 1.0F / white[1], 1.0F / white[2]});
   }
+}
+
+void StoneGroupFinder::leave_out(const Band& band, const std::vector<cv::Point>& outline) {
+  std::vector<cv::Point> steps;
+  for (const cv::Point& p : outline) {
+    steps.emplace_back(p.x / band.step + margin, (p.y - band.top) / band.step + margin);
+  }
+  cv::fillConvexPoly(granite_, steps, cv::Scalar::all(0));
+}
+
+// A row of a band costs by its steps, across and down.
+int StoneGroupFinder::part_begins(int number, int count) const {
+  double all = 0.0;
+  for (const Band& b : bands_) all += std::max(0, b.bottom - b.top) / static_cast<double>(b.step * b.step);
+  double wanted = all * number / count;
+  for (const Band& b : bands_) {
+    const double rows = std::max(0, b.bottom - b.top);
+    const double cost = rows / (b.step * b.step);
+    if (wanted < cost) return b.top + static_cast<int>(wanted * b.step * b.step) / 4 * 4;
+    wanted -= cost;
+  }
+  return bands_[1].bottom;
 }
 
 // In steps of `step` pixels, 1 where the mean of four pixels may be granite; with a margin of nothing about it.
@@ -165,7 +208,6 @@ void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const 
       }
     }
   }
-  cv::integral(granite_, sums_, CV_32S);
 }
 
 // Marks are of half the picture's size, cells of an eighth.

@@ -87,6 +87,7 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
   look_ = {};
   look_.shape = picture.shape;
   prior_ = numbers_of(look_);
+  if (options.begin_with) look_ = *options.begin_with;
   stones_.clear();
   for (const StoneStart& start : starts) {
     stones_.emplace_back(picture, look_, start.place, options.pixels);

@@ -36,6 +36,13 @@ struct StoneSighting {
   double residual = 0.0;             ///< RMS of what the model leaves, share of the contrast between stone and ice
 };
 
+/// Where a stone is thought to be when the picture is taken: a tracker's prediction.
+struct StoneExpectation {
+  double x_m = 0.0;  ///< centre, in e
+  double y_m = 0.0;
+  PlaceCovariance covariance;
+};
+
 /// The stones in view. `ok == false` means that nothing can be said, with the reason; an empty sheet is ok.
 struct StonesPercept {
   bool ok = false;
