@@ -249,7 +249,7 @@ class Pose(unittest.TestCase):
         self.assertIn("run.csv:4", refused.stderr)
 
     def test_help_has_examples(self):
-        for command in ("pose", "throw", "demo", "doctor"):
+        for command in ("pose", "throw", "demo", "turn", "doctor"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
@@ -416,7 +416,7 @@ class Game(unittest.TestCase):
         self.folder.cleanup()
 
     def game(self, *words):
-        return run("game", "--ends", "1", "--out", self.out, *words)
+        return run("game", "--outcome-model", "--ends", "1", "--out", self.out, *words)
 
     def test_an_end_is_played_and_written_down(self):
         result = self.game("--seed", "3")
