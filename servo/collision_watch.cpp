@@ -118,8 +118,10 @@ Fusion CollisionWatch::look(const StonesPercept& percept, View view) {
   Picture picture;
   for (const StoneSighting& seen : percept.stones) {
     if (!std::isfinite(seen.x_m + seen.y_m) || !positive_definite(seen.covariance)) continue;
-    picture.looks.push_back(
-        {{percept.stamp, seen.x_m, seen.y_m, seen.covariance, view, tilt}, seen.team, seen.handle_rad});
+    picture.looks.push_back({{percept.stamp, seen.x_m, seen.y_m, seen.covariance, view, tilt},
+                             seen.team,
+                             seen.handle_rad,
+                             seen.handle_sigma_rad});
   }
   return take_in(percept.stamp, std::move(picture));
 }

@@ -20,6 +20,7 @@ struct StoneLook {
   TrackLook look;
   Team team = Team::unknown;
   std::optional<double> handle_rad;
+  double handle_sigma_rad = 0.1;
 };
 
 /// A stone's looks, the newest first; accounts share them.

@@ -137,7 +137,7 @@ StoneRotation rotation(const std::vector<StoneLook>& looks, const ThrowFit& fit)
   for (const StoneLook& look : looks) {
     const double after_s = seconds(look.look.stamp - fit.start);
     const bool runs = speed_mps(path.at(after_s).stone) > least_turning_mps;
-    if (look.handle_rad && runs) handles.push_back({after_s, *look.handle_rad});
+    if (look.handle_rad && runs) handles.push_back({after_s, *look.handle_rad, look.handle_sigma_rad});
   }
   return rotation_of(handles, path);
 }

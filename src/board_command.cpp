@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "src/drawing/board_picture.hpp"
@@ -59,13 +60,19 @@ std::string remarks(const vision::RuledStone& s) {
   return all;
 }
 
+// In degrees, modulo half a turn; nothing where it is not seen.
+std::string handle_text(const StoneSighting& s) {
+  return s.handle_rad ? fmt::format("{:.1f}", *s.handle_rad * 180.0 / std::numbers::pi) : std::string();
+}
+
 void tell(const vision::Board& board, int frames, const TeamNames& names) {
   fmt::print("{} stones in {} pictures\n", board.stones.size(), frames);
-  fmt::print("{:>3} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "", "team", "x / m", "y / m", "tee / m", "sigma");
+  fmt::print("{:>3} {:<8} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "", "team", "x / m", "y / m", "tee / m", "sigma", "handle");
   for (const vision::RuledStone& s : board.stones) {
     const double sigma_m = std::sqrt(std::max(s.seen.covariance.xx_m2, s.seen.covariance.yy_m2));
-    fmt::print("{:>3} {:<8} {:>8.3f} {:>8.3f} {:>8.3f} {:>7.3f}  {}\n", s.order > 0 ? std::to_string(s.order) : "",
-               team_name(s.seen.team, names), s.seen.x_m, s.seen.y_m, s.tee_distance_m, sigma_m, remarks(s));
+    fmt::print("{:>3} {:<8} {:>8.3f} {:>8.3f} {:>8.3f} {:>7.3f} {:>7}  {}\n",
+               s.order > 0 ? std::to_string(s.order) : "", team_name(s.seen.team, names), s.seen.x_m, s.seen.y_m,
+               s.tee_distance_m, sigma_m, handle_text(s.seen), remarks(s));
   }
   if (!board.shot) {
     fmt::print("no stone in the house\n");

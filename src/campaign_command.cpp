@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
 
 #include "src/campaign/plots.hpp"
 #include "src/campaign/resting_plot.hpp"
@@ -20,6 +19,7 @@
 #include "src/exit_status.hpp"
 #include "src/faults/random_faults.hpp"
 #include "src/faults/strike_journal.hpp"
+#include "src/output/output_file.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -87,13 +87,6 @@ class ProgressTeller {
   double simulated_s_ = 0.0;
 };
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
-
 }  // namespace
 
 std::string number_or_range(const std::string& text) {
@@ -104,14 +97,15 @@ std::string number_or_range(const std::string& text) {
 namespace {
 
 int run_faults_at_random(const CampaignOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   auto chosen = faults::faults_of_any_moment();
   if (options.faults != "all") {
-    std::erase_if(chosen, [&](const auto* fault) { return fault->name.find(options.faults) == std::string::npos; });
+    std::erase_if(chosen, [&](const auto* fault) { return !faults::mentions(*fault, options.faults); });
   }
   if (chosen.empty()) {
-    throw config::ConfigError("command line", 0, "--faults", options.faults,
-                              "must be all, or a part of a fault's name");
+    throw config::ConfigError(
+        "command line", 0, "--faults", options.faults,
+        "must be all, or words of a fault's group, name or way of injection; doc/faults.md lists them");
   }
   const int count = static_cast<int>(chosen.size()) * options.per_fault;
   faults::StrikeJournal journal(options.out + "/strikes.jsonl", chosen, options.seed, this_program());
@@ -123,9 +117,9 @@ int run_faults_at_random(const CampaignOptions& options) {
   };
   const auto known = journal.known();
   const auto strikes = faults::strike_at_random(chosen, options.per_fault, options.seed, options.jobs, note, known);
-  write(options.out + "/faults.csv", faults::strikes_csv(strikes));
+  write_text(options.out + "/faults.csv", faults::strikes_csv(strikes));
   const std::string page = faults::strikes_page(strikes);
-  write(options.out + "/faults.md", page);
+  write_text(options.out + "/faults.md", page);
   fmt::print("{}", page);
   return faults::safe(strikes) ? ExitStatus::success : ExitStatus::not_achieved;
 }
@@ -148,7 +142,7 @@ PlanText plan_of(const CampaignOptions& o) {
 int run_campaign(const CampaignOptions& options) {
   if (!options.faults.empty()) return run_faults_at_random(options);
   if (options.throws < 1) {
-    throw config::ConfigError("command line", 0, "--throws", fmt::format("{}", options.throws), "must be 1 or more");
+    throw config::ConfigError("command line", 0, "--throws", "", "is missing: how many there shall be");
   }
   const Plan plan(plan_of(options));
   Folder folder(options.out, plan, this_program());
@@ -157,8 +151,8 @@ int run_campaign(const CampaignOptions& options) {
   throw_missing(plan, options.throws, options.jobs, folder, ProgressTeller(there, options.throws));
 
   const Summary summary = summarise(folder.rows(), options.tee_draws);
-  write(options.out + "/summary.md", markdown(summary));
-  write(options.out + "/summary.json", json(summary));
+  write_text(options.out + "/summary.md", markdown(summary));
+  write_text(options.out + "/summary.json", json(summary));
   DrawingFolder drawings("--out", options.out);
   drawings.save("distributions", distributions(folder.rows()));
   if (options.tee_draws) drawings.save("resting-places", resting_places(folder.rows()));

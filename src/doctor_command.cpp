@@ -25,7 +25,12 @@ bool is_simulated(const config::Rig& rig) {
   });
 }
 
-std::vector<doctor::Finding> examine_simulated(const std::string& file) {
+std::vector<doctor::Finding> examine_simulated(const std::string& file, const config::DeviceRig& devices) {
+  if (!config::is_thrower(devices)) {
+    throw config::ConfigError(file, 0, "", "",
+                              "is no thrower's rig, and the simulated rink's devices are a thrower's; `hogline skip` "
+                              "runs the skip on its own");
+  }
   constexpr std::uint64_t seed = 1;
   const config::ThrowerRig rig = config::load_thrower_rig(file);
   SimulatedRobot robot(
@@ -35,6 +40,10 @@ std::vector<doctor::Finding> examine_simulated(const std::string& file) {
 }
 
 std::vector<doctor::Finding> examine_steel(const config::DeviceRig& rig) {
+  if (rig.rig.can_udp) {
+    throw config::ConfigError(rig.rig.file, 0, "can.udp_multicast", rig.rig.can_udp->group,
+                              "is for simulations; the doctor examines the kernel's CAN interface (can.interface)");
+  }
   if ((rig.drive || rig.head) && rig.rig.can_interface.empty()) {
     throw config::ConfigError(rig.rig.file, 0, "can.interface", "",
                               "missing; the doctor needs the CAN interface's name, e.g. can0 (or --simulated)");
@@ -48,7 +57,7 @@ std::vector<doctor::Finding> examine_steel(const config::DeviceRig& rig) {
 int run_doctor(const DoctorOptions& options) {
   const config::DeviceRig rig = config::load_device_rig(options.rig);
   const bool simulated = options.simulated || (is_simulated(rig.rig) && config::is_thrower(rig));
-  const auto findings = simulated ? examine_simulated(options.rig) : examine_steel(rig);
+  const auto findings = simulated ? examine_simulated(options.rig, rig) : examine_steel(rig);
   if (options.json) {
     fmt::print("{}\n", doctor::json_line(findings, options.rig, simulated));
   } else {

@@ -4,14 +4,14 @@
 #include <stdexcept>
 
 #include "hw/files/png_writer.hpp"
-#include "src/config/config_error.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 
 namespace fs = std::filesystem;
 
 DrawingFolder::DrawingFolder(const std::string& option, const std::string& folder) : folder_(folder) {
-  if (folder.empty()) throw config::ConfigError("command line", 0, option, "", "must be the name of a folder");
+  check_folder(option, folder);
 }
 
 std::string DrawingFolder::name_for(const std::string& picture) {

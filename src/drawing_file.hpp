@@ -10,7 +10,7 @@ namespace hogline {
 /// The folder that one run draws into.
 class DrawingFolder {
  public:
-  /// Throws ConfigError where `folder` is empty: whoever asks for drawings must say where.
+  /// Makes the folder that `option` names. Throws ConfigError where nothing can be written into it.
   DrawingFolder(const std::string& option, const std::string& folder);
 
   /// As FOLDER/NAME.png; of a recording's frame the name keeps its number. Where another picture of this run has taken

@@ -4,21 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "src/config/config_error.hpp"
 #include "src/exit_status.hpp"
 #include "src/faults/fault_page.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 namespace {
-
-bool wanted(const faults::Case& fault, const std::string& only) {
-  return (std::string(to_string(fault.group)) + " " + fault.name + " " + fault.injected).find(only) !=
-         std::string::npos;
-}
 
 void tell(const faults::Case& fault, const faults::Finding& finding) {
   fmt::print(stderr, "{:6} {} ({}, {}): {}\n", to_string(fault.group), fault.name, fault.injected,
@@ -26,22 +19,14 @@ void tell(const faults::Case& fault, const faults::Finding& finding) {
              finding.failures.empty() ? "as it should be" : fmt::format("{}", fmt::join(finding.failures, "; ")));
 }
 
-void write(const std::string& path, const std::string& page) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << page;
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
-
 // Before the first throw: a table takes a minute.
 void check(const FaultsOptions& options) {
   const auto table = faults::fault_table();
-  if (std::ranges::none_of(table, [&](const faults::Case& fault) { return wanted(fault, options.only); })) {
+  if (std::ranges::none_of(table, [&](const faults::Case& fault) { return mentions(fault, options.only); })) {
     throw config::ConfigError("command line", 0, "--only", options.only,
                               "no fault's group, name or way of injection contains it; doc/faults.md lists them");
   }
-  if (!options.out.empty() && std::filesystem::is_directory(options.out))
-    throw config::ConfigError("command line", 0, "--out", options.out, "is a folder; name a file in it");
+  if (!options.out.empty()) check_file("--out", options.out);
 }
 
 }  // namespace
@@ -51,7 +36,7 @@ int run_faults(const FaultsOptions& options) {
   std::vector<faults::Row> rows;
   bool all_well = true;
   for (const faults::Case& fault : faults::fault_table()) {
-    if (!wanted(fault, options.only)) continue;
+    if (!mentions(fault, options.only)) continue;
     rows.push_back({fault, faults::try_fault(fault)});
     tell(fault, rows.back().finding);
     all_well = all_well && (rows.back().finding.failures.empty() || !fault.shortcoming.empty());
@@ -60,7 +45,7 @@ int run_faults(const FaultsOptions& options) {
   if (options.out.empty()) {
     fmt::print("{}", page);
   } else {
-    write(options.out, page);
+    write_text(options.out, page);
   }
   return all_well ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -10,6 +10,7 @@
 
 #include "src/exit_status.hpp"
 #include "src/game/simulated_throws.hpp"
+#include "src/output/output_file.hpp"
 #include "src/team/throw_table.hpp"
 
 namespace hogline {
@@ -102,6 +103,7 @@ int play_with_robots(const GameOptions& options) {
 }  // namespace
 
 int run_game(const GameOptions& options) {
+  check_folder("--out", options.out);
   return options.outcome_model ? play_on_outcome_model(options) : play_with_robots(options);
 }
 

@@ -1,14 +1,12 @@
-#include <fmt/ranges.h>
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
 #include "src/cli/commands.hpp"
+#include "src/cli/parsing.hpp"
 #include "src/config/config_error.hpp"
-#include "src/config/nearest_word.hpp"
 #include "src/exit_status.hpp"
 
 namespace {
@@ -21,19 +19,6 @@ void prepare_libraries() {
   cv::setNumThreads(1);
 }
 
-// The parser itself would only say that a word was not expected.
-void check_subcommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::ranges::find(known, argv[1]) != known.end()) return;
-  const std::string meant = hogline::config::nearest_word(argv[1], known);
-  throw hogline::config::ConfigError(
-      "command line", 0, "subcommand", argv[1],
-      fmt::format("unknown; {}there are {}", meant.empty() ? "" : "did you mean " + meant + "? ",
-                  fmt::join(known, ", ")));
-}
-
 int run(int argc, char** argv) {
   CLI::App app{"hogline: visual servoing for a team of two curling robots", "hogline"};
   app.set_version_flag("--version", HOGLINE_VERSION);
@@ -43,14 +28,10 @@ int run(int argc, char** argv) {
        {hogline::cli::add_pose, hogline::cli::add_stones, hogline::cli::add_board, hogline::cli::add_throw,
         hogline::cli::add_demo, hogline::cli::add_doctor, hogline::cli::add_turn, hogline::cli::add_game,
         hogline::cli::add_faults, hogline::cli::add_campaign, hogline::cli::add_sights, hogline::cli::add_skip,
-        hogline::cli::add_track, hogline::cli::add_skips, hogline::cli::add_keys, hogline::cli::add_link})
+        hogline::cli::add_track, hogline::cli::add_skips, hogline::cli::add_keys, hogline::cli::add_link,
+        hogline::cli::add_rink, hogline::cli::add_thrower, hogline::cli::add_hold, hogline::cli::add_order})
     add(app, chosen);
-  check_subcommand(app, argc, argv);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? ExitStatus::success : ExitStatus::wrong_use;
-  }
+  if (const auto done = hogline::cli::parse(app, argc, argv)) return *done;
   return chosen();
 }
 

@@ -35,11 +35,17 @@ void add_nothing(ordered_json& line) {
   }
 }
 
+ordered_json handle_json(const StoneSighting& s, double radians) {
+  return s.handle_rad ? ordered_json(rounded(degrees(radians), 1e-2)) : ordered_json(nullptr);
+}
+
 ordered_json stone_json(const StoneSighting& s, const TeamNames& names) {
   return {{"x_m", s.x_m},
           {"y_m", s.y_m},
           {"team", team_name(s.team, names)},
-          {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))}};
+          {"sigma_m", std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2))},
+          {"handle_deg", handle_json(s, s.handle_rad.value_or(0.0))},
+          {"handle_sigma_deg", handle_json(s, s.handle_sigma_rad)}};
 }
 
 ordered_json stones_json(const std::vector<StoneSighting>& stones, const TeamNames& names) {

@@ -22,7 +22,8 @@ std::string team_name(Team team, const TeamNames& names);
 /// One line without its newline. Where the percept is not ok every estimate is null and `reason` says why.
 std::string pose_line(const std::string& image, const SheetPosePercept& percept, double elapsed_ms);
 
-/// The same for the stones of a picture; an empty list where the percept is not ok.
+/// The same for the stones of a picture; an empty list where the percept is not ok. `handle_deg` is the grip's
+/// direction from e's y axis modulo half a turn, null where it was not measured.
 std::string stones_line(const std::string& image, const StonesPercept& percept, const TeamNames& names,
                         double elapsed_ms);
 

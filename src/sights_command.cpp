@@ -2,32 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
-
 #include "src/campaign/sights.hpp"
 #include "src/exit_status.hpp"
+#include "src/output/output_file.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
-namespace {
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
-
-}  // namespace
-
 int run_sights(const CampaignOptions& options) {
   const campaign::Plan plan(plan_of(options));
-  check_folder(options.out);
+  check_folder("--out", options.out);
+  fmt::print(stderr, "watching {} rendered throws\n", options.throws);
   int done = 0;
   const auto sightings = campaign::watch_throws(
       plan, options.throws, options.jobs, [&] { fmt::print(stderr, "{} of {} throws\n", ++done, options.throws); });
-  write(options.out + "/sights.csv", campaign::sightings_csv(sightings));
+  write_text(options.out + "/sights.csv", campaign::sightings_csv(sightings));
 
   const OracleQuality quality = campaign::fit_oracle(sightings);
   if (quality.near.knots.empty() || quality.low.knots.empty()) {
@@ -41,7 +29,7 @@ int run_sights(const CampaignOptions& options) {
                   "  hogline sights --throws {} --seed {} --scenario {} --speed {}\n"
                   "Standard deviations; offset is a mean. Claimed is what the percepts say of themselves.",
                   sightings.size(), options.throws, options.throws, options.seed, scenario, options.speed_mps));
-  write(options.out + "/oracle.yaml", text);
+  write_text(options.out + "/oracle.yaml", text);
   fmt::print("{}", text);
   return ExitStatus::success;
 }

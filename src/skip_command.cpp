@@ -6,6 +6,7 @@
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
 #include "src/exit_status.hpp"
+#include "src/output/output_file.hpp"
 #include "src/skip/ice_file.hpp"
 #include "src/skip/skip_report.hpp"
 #include "src/skip/skip_set.hpp"
@@ -56,14 +57,15 @@ SkipRequest request_of(const SkipOptions& options) {
 }  // namespace
 
 int run_skip(const SkipOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   SkipRequest request = request_of(options);
+  if (!options.ice.empty()) check_file("--ice", options.ice);
   if (!options.ice.empty()) request.ice = load_ice(options.ice).value_or(request.ice);
   if (options.oracle && !options.record.empty()) {
     throw config::ConfigError("command line", 0, "--record", options.record,
                               "the oracle looks at no pictures: leave --oracle out to record them");
   }
-  if (!options.record.empty()) check_folder(options.record);
+  if (!options.record.empty()) check_folder("--record", options.record);
   request.record = options.record;
   if (!options.json_only) fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   SkipProgress progress;
@@ -78,7 +80,7 @@ int run_skip(const SkipOptions& options) {
 }
 
 int run_skips(const SkipsOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   SkipSet set{.rig = load_skip_rig_or_practice(options.rig),
               .scenario = options.scenario,
               .first_seed = options.seed,

@@ -5,13 +5,17 @@
 
 #include "src/campaign/recall.hpp"
 #include "src/exit_status.hpp"
+#include "src/output/output_file.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
 
 std::string known_fault(const std::string& text) {
   if (parse_fault(text)) return {};
-  return fmt::format("'{}' is no fault: KIND@SECONDS with KIND one of {}", text, fmt::join(fault_names(), ", "));
+  if (text.find('@') == std::string::npos)
+    return fmt::format("'{}' does not say when: KIND@SECONDS, e.g. {}@1.0", text, fault_names().front());
+  return fmt::format("'{}' is no fault: KIND@SECONDS, from 0 s, with KIND one of {}", text,
+                     fmt::join(fault_names(), ", "));
 }
 
 namespace {
@@ -19,7 +23,7 @@ namespace {
 int throw_again(const ThrowOptions& options) {
   auto [request, draw, row] = campaign::recall(options.from);
   if (!options.seer.empty()) request.eyes = eyes_of(options.seer);
-  check_folder(options.out);
+  check_folder("--out", options.out);
   const ThrowOutcome outcome = carry_out(options, request);
   const bool same = campaign::line_of(campaign::row_of(draw, outcome.result)) == campaign::line_of(row);
   fmt::print(stderr, "{}\n",

@@ -6,13 +6,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <random>
 
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
+#include "src/output/output_file.hpp"
 #include "src/throwing/realtime_throw.hpp"
 #include "src/throwing/release_memory.hpp"
 #include "src/throwing_report.hpp"
@@ -24,14 +24,6 @@ void check_number(const char* option, double value, double low, double high, con
   if (std::isfinite(value) && value >= low && value <= high) return;
   throw config::ConfigError("command line", 0, option, fmt::format("{}", value),
                             fmt::format("must be a number from {} to {} {}", low, high, unit));
-}
-
-// Before the throw, not after it.
-void check_learn(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (std::filesystem::is_directory(path) || ::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0) {
-    throw config::ConfigError("command line", 0, "--learn", path, "must be a file in a folder that can be written to");
-  }
 }
 
 servo::ReleaseKnowledge known(const std::string& path, const servo::ReleaseConfig& config) {
@@ -80,19 +72,11 @@ class StateTeller {
 
 }  // namespace
 
-void check_folder(const std::string& folder) {
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (folder.empty() || error || ::access(folder.c_str(), W_OK) != 0) {
-    throw config::ConfigError("command line", 0, "--out", folder, "must be a folder that can be written to");
-  }
-}
-
 Eyes eyes_of(const std::string& seer) { return seer == "oracle" ? Eyes::oracle : Eyes::vision; }
 
 // The folder before the throw, not after it.
 ThrowRequest make_request(const ThrowOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   ThrowRequest request;
   request.rig = options.rig.empty()
                     ? config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig")
@@ -110,7 +94,7 @@ ThrowRequest make_request(const ThrowOptions& options) {
                    .curl = options.curl == "cw" ? servo::Curl::clockwise : servo::Curl::counter_clockwise,
                    .spin_radps = options.spin_radps};
   if (!options.learn.empty()) {
-    check_learn(options.learn);
+    check_file("--learn", options.learn);
     request.rig.thrower.release =
         servo::with_knowledge(request.rig.thrower.release, known(options.learn, request.rig.thrower.release));
   }

@@ -12,9 +12,6 @@ ThrowRequest make_request(const ThrowOptions& options);
 /// "oracle" or "rendered".
 Eyes eyes_of(const std::string& seer);
 
-/// Makes the folder of --out. Throws ConfigError when it can not be written to.
-void check_folder(const std::string& folder);
-
 /// Runs the throw with progress on stderr, and writes its report; wall_time_s is filled in.
 ThrowOutcome carry_out(const ThrowOptions& options, const ThrowRequest& request);
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "src/drawing/picture_overlay.hpp"
 #include "src/drawing/plot.hpp"
 #include "src/drawing/sheet_plan.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 namespace {
@@ -25,14 +25,6 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 void write_picture(const std::string& path, const cv::Mat& picture) {
   if (const auto problem = hw::files::write_png(path, picture)) throw std::runtime_error(*problem);
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw std::runtime_error(fmt::format("{}: can not be written; check the folder and the disk's space", path));
 }
 
 Series series(const ThrowLog& log, std::string name, Ink ink, SeriesStyle style, double (*value)(const ThrowSample&)) {

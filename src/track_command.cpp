@@ -10,6 +10,7 @@
 #include "servo/skip_sheet.hpp"
 #include "src/config/config_error.hpp"
 #include "src/exit_status.hpp"
+#include "src/output/output_file.hpp"
 #include "src/skip/ice_file.hpp"
 #include "src/skip/skip_report.hpp"
 #include "src/skip/skip_vision.hpp"
@@ -47,13 +48,14 @@ FrameLoader loader(const config::Rig& rig) {
 }  // namespace
 
 int run_track(const TrackOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   const config::SkipRig rig = config::load_skip_rig(options.rig);
   const SkipRecording recording = read_skip_recording(options.folder);
   servo::SkipConfig config = rig.skip;
   config.known_body = body_at(options.at);
   config.expected_spin_radps = options.spin_radps;
   servo::IceEstimate ice = servo::IceModel(servo::IceModelConfig{}).estimate();
+  if (!options.ice.empty()) check_file("--ice", options.ice);
   if (!options.ice.empty()) ice = load_ice(options.ice).value_or(ice);
 
   SkipVision seer(rig);
@@ -70,6 +72,7 @@ int run_track(const TrackOptions& options) {
   told.foretold = tracked.foretold;
   told.teams = team_names(rig.rig);
   told.seen_by = "vision";
+  told.unread = tracked.unread;
   write_throw(options.out, told);
   fmt::print("{}\n", throw_json(told, -1));
   return tracked.report.ok ? ExitStatus::success : ExitStatus::not_achieved;

@@ -11,6 +11,7 @@
 #include "src/exit_status.hpp"
 #include "src/game/built_in_strategist.hpp"
 #include "src/game_table.hpp"
+#include "src/output/output_file.hpp"
 #include "src/throw_request.hpp"
 #include "src/turn_report.hpp"
 
@@ -60,7 +61,7 @@ struct PlayedTurn {
 };
 
 PlayedTurn play_turn(const TurnOptions& options) {
-  check_folder(options.out);
+  check_folder("--out", options.out);
   const TeamRequest request = team_request(options.team);
   SimulatedTeam team(request);
   const servo::ThrowerSkill skill = skill_of(request.thrower);

@@ -15,8 +15,8 @@ constexpr double hiding_m = 1.2;       // a stone farther behind another is seen
 constexpr double least_handle = 0.35;  // share of the plate that has a handle's colour
 constexpr int most_rounds = 3;         // a stone behind one behind one
 
-StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .pixels = 120}; }
-StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .pixels = 200}; }
+StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120}; }
+StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200}; }
 
 // A stone stands there already.
 bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {

@@ -10,6 +10,7 @@ namespace {
 constexpr double same_stone_m = 0.14;  // half a stone: no two can be nearer
 constexpr double outlier_sigmas = 3.0;
 constexpr double least_spread_m = 0.001;
+constexpr double least_agreement = 0.7;  // length of the mean direction, of doubled angles: 24 degrees of scatter
 
 double median(std::vector<double> v) {
   const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
@@ -38,6 +39,29 @@ Team majority(const std::vector<StoneSighting>& seen) {
     if (2 * votes[static_cast<std::size_t>(team)] > static_cast<int>(seen.size())) return team;
   }
   return Team::unknown;
+}
+
+// Of directions modulo half a turn: twice the angle goes all around. Each counts by its own doubt.
+void average_handles(const std::vector<StoneSighting>& seen, StoneSighting& mean) {
+  double sine = 0.0;
+  double cosine = 0.0;
+  double weights = 0.0;
+  int measured = 0;
+  for (const StoneSighting& s : seen) {
+    if (!s.handle_rad) continue;
+    const double weight = 1.0 / std::max(1e-8, s.handle_sigma_rad * s.handle_sigma_rad);
+    sine += weight * std::sin(2.0 * *s.handle_rad);
+    cosine += weight * std::cos(2.0 * *s.handle_rad);
+    weights += weight;
+    ++measured;
+  }
+  mean.handle_rad.reset();
+  mean.handle_sigma_rad = 0.0;
+  if (2 * measured < static_cast<int>(seen.size()) || measured == 0) return;
+  if (std::hypot(sine, cosine) < least_agreement * weights) return;
+  const double common = StoneAverage::common_share;
+  mean.handle_rad = 0.5 * std::atan2(sine, cosine);
+  mean.handle_sigma_rad = std::sqrt((common * measured + 1.0 - common) / weights);
 }
 
 StoneSighting mean_of(const std::vector<StoneSighting>& seen) {
@@ -70,6 +94,7 @@ StoneSighting mean_of(const std::vector<StoneSighting>& seen) {
   mean.covariance.xy_m2 *= share;
   mean.covariance.yy_m2 *= share;
   mean.team = majority(seen);
+  average_handles(seen, mean);
   return mean;
 }
 

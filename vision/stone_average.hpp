@@ -17,7 +17,7 @@ class StoneAverage {
   /// Stones seen in at least half of the frames: the place is the mean of what lies within three robust sigmas of the
   /// median, the covariance that of a frame divided by what the frames' scatter says, but never below what all frames
   /// have in common (the pose, the shape: `common_share` of a frame's variance). The team is the frames' majority, and
-  /// unknown without one.
+  /// unknown without one; the handle's angle the mean of those measured, where half of the frames have it.
   std::vector<StoneSighting> stones() const;
 
   static constexpr double common_share = 0.5;

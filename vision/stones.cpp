@@ -8,6 +8,7 @@
 #include "vision/detect/stone_vote.hpp"
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
+#include "vision/handle_angle.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -29,7 +30,6 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   std::string unusable(const cv::Mat& image) const;
-  StoneArea area(std::optional<double> sheet_width_m) const;
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
@@ -53,7 +53,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   seen.reason = impl_->unusable(image);
   if (!seen.reason.empty()) return seen;
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
-  const StoneArea area = impl_->area(sheet_width_m);
+  const StoneArea area = stone_area(sheet_width_m);
 
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
@@ -72,11 +72,14 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   compare_granite(stones);
   part_overlapping(picture, stones);
 
+  std::vector<Eigen::Vector2d> places;
   for (JudgedStone& s : stones) {
+    if (s.doubt.empty()) places.push_back(s.fit.place);
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
     if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
-    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt});
+    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
+  for (StoneSighting& s : seen.stones) measure_handle(picture, places, s);
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
   seen.groups = static_cast<int>(groups.boxes.size());
@@ -96,8 +99,9 @@ std::string StoneFinder::Impl::unusable(const cv::Mat& image) const {
   return {};
 }
 
-// Where a stone of this sheet can lie: its centre between the sidelines. A stone that touches one is out, but ours.
-StoneArea StoneFinder::Impl::area(std::optional<double> sheet_width_m) const {
+StoneGroupFinder& StoneFinder::groups() { return impl_->groups; }
+
+StoneArea stone_area(std::optional<double> sheet_width_m) {
   StoneArea area;
   area.half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m) + beside_m;
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;

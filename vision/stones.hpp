@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vision/camera_setup.hpp"
+#include "vision/detect/stone_groups.hpp"
 #include "vision/detect/stone_team.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
@@ -27,10 +28,15 @@ struct StonesSketch {
   struct Candidate {
     StoneCandidate votes;
     FittedStone fit;
-    std::string doubt;  ///< empty: a stone; else why it is none
+    std::string doubt;      ///< empty: a stone; else why it is none
+    bool glimpsed = false;  ///< judged with the club's granite known
   };
   std::vector<Candidate> candidates;
 };
+
+/// Where a stone of this sheet can lie: its centre between the sidelines, and not far outside of hog and back line. A
+/// stone that touches one is out, but ours.
+StoneArea stone_area(std::optional<double> sheet_width_m);
 
 class StoneFinder {
  public:
@@ -43,6 +49,9 @@ class StoneFinder {
   /// in it, `sheet_width_m` the distance of the sidelines where it is known: stones beyond them are not reported.
   StonesPercept find(const cv::Mat& image, Stamp stamp, const Pose& eMc, std::optional<double> sheet_width_m,
                      StonesSketch* sketch = nullptr);
+
+  /// The first step's, for this mount.
+  StoneGroupFinder& groups();
 
  private:
   struct Impl;

@@ -9,12 +9,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "src/config/config_error.hpp"
 #include "src/config/strict_yaml.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline::campaign {
 namespace {
@@ -26,17 +26,6 @@ constexpr const char* options_name = "options.json";
 
 [[noreturn]] void fail(const std::string& path, const char* what) {
   throw std::runtime_error(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
-}
-
-// Under another name first: what stands under its own name is whole.
-void write_whole(const std::string& path, const std::string& text) {
-  const std::string draft = path + ".part";
-  std::ofstream stream(draft, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(draft, path, error);
-  if (!stream || error) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
 }
 
 ordered_json options_of(const PlanText& text, const std::string& program) {
@@ -129,11 +118,7 @@ std::vector<Row> read_rows(const std::string& path) {
 }
 
 Folder::Folder(const std::string& path, const Plan& plan, const std::string& program) : path_(path) {
-  std::error_code error;
-  if (!path.empty()) std::filesystem::create_directories(path, error);
-  if (path.empty() || error || ::access(path.c_str(), W_OK) != 0) {
-    throw ConfigError("command line", 0, "--out", path, "must be a folder that can be written to");
-  }
+  check_folder("--out", path);
   lock();
   take_up(plan, program);
   cut_unfinished();
@@ -162,9 +147,9 @@ void Folder::take_up(const Plan& plan, const std::string& program) {
     return;
   }
   if (std::filesystem::file_size(path_ + "/throws.csv") > 0) refuse_other(path_, "unknown options");
-  write_whole(path_ + "/rig.yaml", plan.text().rig);
-  write_whole(path_ + "/scenario.yaml", plan.text().scenario);
-  write_whole(path_ + "/" + options_name, here.dump(2) + "\n");
+  replace_text(path_ + "/rig.yaml", plan.text().rig);
+  replace_text(path_ + "/scenario.yaml", plan.text().scenario);
+  replace_text(path_ + "/" + options_name, here.dump(2) + "\n");
 }
 
 // What follows the last end of a line was not finished.

@@ -25,5 +25,9 @@ void add_track(CLI::App& app, Chosen& chosen);
 void add_skips(CLI::App& app, Chosen& chosen);
 void add_keys(CLI::App& app, Chosen& chosen);
 void add_link(CLI::App& app, Chosen& chosen);
+void add_rink(CLI::App& app, Chosen& chosen);
+void add_thrower(CLI::App& app, Chosen& chosen);
+void add_order(CLI::App& app, Chosen& chosen);
+void add_hold(CLI::App& app, Chosen& chosen);
 
 }  // namespace hogline::cli

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 namespace hogline::cli {
 
@@ -12,12 +13,25 @@ std::string whole_number(const std::string& text) {
   return digits ? std::string() : "'" + text + "' is no whole number from 0 to 999999999999999999";
 }
 
+namespace {
+
+std::optional<double> finite_number(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool read = error == std::errc{} && end == text.data() + text.size();
+  return read && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+std::string any_number(const std::string& text) {
+  return finite_number(text) ? std::string() : "'" + text + "' is no number";
+}
+
 std::function<std::string(std::string&)> between(double low, double high) {
   return [low, high](std::string& text) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool read = error == std::errc{} && end == text.data() + text.size();
-    if (read && std::isfinite(number) && number >= low && number <= high) return std::string();
+    const auto number = finite_number(text);
+    if (number && *number >= low && *number <= high) return std::string();
     return fmt::format("'{}' is no number from {} to {}", text, low, high);
   };
 }

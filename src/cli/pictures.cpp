@@ -18,9 +18,10 @@ void add_pose(CLI::App& app, Chosen& chosen) {
   pose->add_option("--camera", options.camera, "which camera of the rig took the pictures")
       ->required()
       ->check(CLI::IsMember({"near", "low"}));
-  pose->add_flag("--sequence", options.sequence,
-                 "the pictures are consecutive frames: each is predicted from those before");
-  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence; without it 60, and a video's own");
+  auto* sequence = pose->add_flag("--sequence", options.sequence,
+                                  "the pictures are consecutive frames: each is predicted from those before");
+  pose->add_option("--rate", options.rate_hz, "frames a second of the sequence; without it 60, and a video's own")
+      ->needs(sequence);
   pose->add_option("--draw", options.draw, "folder for the pictures with what was seen drawn on them");
   pose->add_option(
           "IMAGE", options.images,

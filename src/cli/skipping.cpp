@@ -24,7 +24,8 @@ void add_skip(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->check(whole_number);
   skip->add_option("--number", options.number, "this throw of the set that `hogline skips` measures, instead")
-      ->check(CLI::Range(0, throws_in_set - 1));
+      ->check(CLI::Range(0, throws_in_set - 1))
+      ->excludes(skip->get_option("--throw"));
   skip->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
   skip->add_flag("--unannounced", options.unannounced,
                  "the thrower does not tell when it lets go, nor which way it turns");

@@ -16,13 +16,19 @@ void add_shot(CLI::App* app, ThrowOptions& options) {
   app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
   app->add_option("--scenario", options.scenario,
                   "scenario file (YAML) of the simulated rink; without it the practice rink");
-  app->add_option("--speed", options.speed_mps, "of the stone at release, m/s")->capture_default_str();
+  app->add_option("--speed", options.speed_mps, "of the stone at release, m/s")
+      ->capture_default_str()
+      ->check(any_number);
   app->add_option("--heading-deg", options.heading_deg, "of the shot's line, counter-clockwise from down-ice")
-      ->capture_default_str();
+
+      ->capture_default_str()
+      ->check(any_number);
   app->add_option("--curl", options.curl, "the stone's turn seen from above: cw curls right, ccw left")
       ->capture_default_str()
       ->check(CLI::IsMember({"cw", "ccw"}));
-  app->add_option("--spin", options.spin_radps, "the stone's rate of turn at release, rad/s")->capture_default_str();
+  app->add_option("--spin", options.spin_radps, "the stone's rate of turn at release, rad/s")
+      ->capture_default_str()
+      ->check(any_number);
   app->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
       ->capture_default_str()
       ->check(whole_number);
@@ -69,9 +75,12 @@ void add_throw(CLI::App& app, Chosen& chosen) {
       ->check(known_fault);
   command->add_option("--seer", options.seer, "who looks: vision at rendered pictures, or an oracle with its errors")
       ->check(CLI::IsMember({"oracle", "rendered"}));
-  command->add_option(
+  auto* from = command->add_option(
       "--from", options.from,
       "a campaign's throw once more, FOLDER/throws.csv:NUMBER; rig, scenario, shot and seed are the row's");
+  for (const char* own : {"--rig", "--scenario", "--speed", "--heading-deg", "--curl", "--spin", "--seed", "--learn",
+                          "--fault", "--realtime"})
+    from->excludes(command->get_option(own));
   command->footer(
       "Examples:\n"
       "  hogline throw --speed 2.09 --heading-deg 0.4 --curl ccw --seed 7 --out out/throw\n"
@@ -91,15 +100,19 @@ void add_campaign(CLI::App& app, Chosen& chosen) {
   campaign->add_option("--seer", options.seer, "who looks: rendered pictures and vision, or an oracle with its errors")
       ->capture_default_str()
       ->check(CLI::IsMember({"oracle", "rendered"}));
-  campaign->add_flag(
-      "--tee-draws", options.tee_draws,
-      "every shot is solved for the far tee on the scenario's ice; --speed and --heading-deg do not count");
+  auto* draws = campaign->add_flag("--tee-draws", options.tee_draws,
+                                   "every shot is solved for the far tee on the scenario's ice");
+  for (const char* aimed : {"--speed", "--heading-deg"}) draws->excludes(campaign->get_option(aimed));
   campaign->add_option("--without", options.without, "leave an ingredient out, to see what it buys")
       ->check(CLI::IsMember({"refraction", "latency", "tracking", "visual-alignment"}));
-  campaign->add_option("--faults", options.faults,
-                       "instead of plain throws: faults at random moments, all or those with this in their name");
+  auto* faults = campaign->add_option(
+      "--faults", options.faults, "instead of plain throws: faults at random moments, all or those that mention this");
+  for (const char* plain : {"--throws", "--rig", "--scenario", "--speed", "--heading-deg", "--spin", "--curl", "--seer",
+                            "--tee-draws", "--without"})
+    faults->excludes(campaign->get_option(plain));
   campaign->add_option("--per-fault", options.per_fault, "throws for each fault")
       ->capture_default_str()
+      ->needs(faults)
       ->check(CLI::Range(1, 100000));
   campaign->footer(
       "Examples:\n"
@@ -121,6 +134,7 @@ void add_sights(CLI::App& app, Chosen& chosen) {
   auto* sights =
       app.add_subcommand("sights", "how well vision sees on rendered throws: the oracle's figures, measured");
   add_throws(sights, options);
+  sights->get_option("--throws")->required();
   sights->footer(
       "Example:\n"
       "  hogline sights --throws 24 --jobs 2 --scenario config/scenarios/anywhere.yaml --out out/sights\n"
@@ -136,7 +150,7 @@ void add_faults(CLI::App& app, Chosen& chosen) {
   FaultsOptions& options = *kept;
   auto* faults = app.add_subcommand("faults", "every fault of the table in a whole simulated throw, as a page");
   faults->add_option("--out", options.out, "the page's file (Markdown); without it stdout");
-  faults->add_option("--only", options.only, "only cases whose group, name or way of injection contains this");
+  faults->add_option("--only", options.only, "only cases whose group, name or way of injection mentions this");
   faults->footer(
       "Examples:\n"
       "  hogline faults --out doc/faults.md\n"

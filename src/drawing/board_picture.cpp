@@ -12,6 +12,8 @@ namespace {
 constexpr double from_y_m = -2.6;
 constexpr double to_y_m = 7.0;
 constexpr int outline_points = 48;
+constexpr double half_bar_m = 0.075;    // of a grip
+constexpr double bar_height_m = 0.059;  // over the handle's rim
 
 Ink ink_of(Team team) {
   switch (team) {
@@ -36,6 +38,19 @@ std::vector<Eigen::Vector2d> projected(const vision::SheetCamera& camera, const 
   return pixels;
 }
 
+std::vector<Eigen::Vector2d> bar_of(const vision::SheetCamera& camera, const vision::StoneShape& shape,
+                                    const Eigen::Vector2d& place, double handle_rad) {
+  const Eigen::Vector2d along = half_bar_m * Eigen::Vector2d(-std::sin(handle_rad), std::cos(handle_rad));
+  std::vector<Eigen::Vector2d> pixels;
+  for (const double end : {-1.0, 1.0}) {
+    const Eigen::Vector2d p = place + end * along;
+    const auto pixel = camera.project({p.x(), p.y(), shape.handle_height_m + bar_height_m});
+    if (!pixel) return {};
+    pixels.push_back(*pixel);
+  }
+  return pixels;
+}
+
 }  // namespace
 
 cv::Mat draw_stones(const cv::Mat& picture, const vision::Board& board, const vision::SheetCamera& camera,
@@ -54,6 +69,7 @@ cv::Mat draw_stones(const cv::Mat& picture, const vision::Board& board, const vi
                                                              shape.handle_height_m, a);
                                }),
                      ink, 2.0);
+    if (s.seen.handle_rad) canvas.poly_line(bar_of(camera, shape, place, *s.seen.handle_rad), inks::paper, 1.5);
     const auto above = camera.project({place.x(), place.y(), shape.handle_height_m + 0.12});
     if (above && s.order > 0) {
       canvas.text(*above, std::to_string(s.order), 14.0, ink,
@@ -74,7 +90,7 @@ cv::Mat draw_board(const vision::Board& board, std::optional<double> sheet_width
     const vision::RuledStone& s = board.stones[i];
     PlanStone stone;
     stone.place_m = {s.seen.x_m, s.seen.y_m};
-    stone.handle_rad = s.seen.handle_rad.value_or(0.0);
+    stone.handle_rad = s.seen.handle_rad;
     stone.team = ink_of(s.seen.team);
     stone.label = s.order > 0 ? std::to_string(s.order) : std::string();
     stone.ringed = board.shot && *board.shot == i;

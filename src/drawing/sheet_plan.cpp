@@ -142,11 +142,13 @@ std::vector<Eigen::Vector2d> within(const std::vector<Eigen::Vector2d>& track, d
 void draw_stone(Canvas& canvas, const PlanStone& stone, const Map& map) {
   const Eigen::Vector2d at = map.at(stone.place_m);
   const double radius = std::max(4.0, map.scale * rules::stone_radius_m);
-  const Eigen::Vector2d bar = 0.09 * Eigen::Vector2d(-std::sin(stone.handle_rad), std::cos(stone.handle_rad));
-  const Eigen::Vector2d half = (map.at(Eigen::Vector2d(stone.place_m + bar)) - at).normalized() * 0.55 * radius;
   canvas.disc(at, radius, granite);
   canvas.disc(at, 0.72 * radius, stone.team);
-  if (radius >= 7.0) canvas.line(at - half, at + half, inks::paper, std::max(1.5, 0.22 * radius));
+  if (radius >= 7.0 && stone.handle_rad) {
+    const Eigen::Vector2d bar(-std::sin(*stone.handle_rad), std::cos(*stone.handle_rad));
+    const Eigen::Vector2d half = (map.at(Eigen::Vector2d(stone.place_m + bar)) - at).normalized() * 0.55 * radius;
+    canvas.line(at - half, at + half, inks::paper, std::max(1.5, 0.22 * radius));
+  }
   if (stone.ringed) canvas.circle(at, radius + 2.5, inks::text, 1.2);
   if (!stone.label.empty())
     canvas.text(at + Eigen::Vector2d(radius + 6.0, 0.5 * label_px), stone.label, label_px, inks::text,

@@ -14,8 +14,8 @@ namespace hogline::drawing {
 
 /// A stone seen from above: a disc of granite with the team's handle.
 struct PlanStone {
-  Eigen::Vector2d place_m{0.0, 0.0};  ///< in e
-  double handle_rad = 0.0;            ///< the handle's bar, from e's y axis, counter-clockwise
+  Eigen::Vector2d place_m{0.0, 0.0};      ///< in e
+  std::optional<double> handle_rad{0.0};  ///< the handle's bar, from e's y axis, counter-clockwise; empty: not drawn
   Ink team = inks::red;
   std::string label;
   bool ringed = false;  ///< the thrown one

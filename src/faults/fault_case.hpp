@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/throwing/simulated_throw.hpp"
@@ -76,5 +77,8 @@ std::vector<Case> host_faults();
 
 /// All of them, in the order of the page.
 const std::vector<Case>& fault_table();
+
+/// Whether group, name or way of injection contains these words, large or small letters.
+bool mentions(const Case& fault, std::string_view words);
 
 }  // namespace hogline::faults

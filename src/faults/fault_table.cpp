@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "src/faults/fault_case.hpp"
@@ -69,6 +71,12 @@ const std::vector<Case>& fault_table() {
     return all;
   }();
   return table;
+}
+
+bool mentions(const Case& fault, std::string_view words) {
+  const std::string all = std::string(to_string(fault.group)) + " " + fault.name + " " + fault.injected;
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return std::search(all.begin(), all.end(), words.begin(), words.end(), same) != all.end();
 }
 
 }  // namespace hogline::faults

@@ -4,15 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "servo/ice_model.hpp"
 #include "src/config/config_error.hpp"
 #include "src/config/schema.hpp"
 #include "src/config/section.hpp"
 #include "src/config/strict_yaml.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 
@@ -45,14 +44,6 @@ std::string ice_text(const servo::IceEstimate& ice) {
       ice.friction_scale, ice.curl_gain, ice.lateral_mps2, fmt::join(ice.covariance, ", "), ice.throws);
 }
 
-void save_ice(const std::string& path, const servo::IceEstimate& ice) {
-  const std::string beside = path + ".new";
-  std::ofstream stream(beside, std::ios::binary);
-  stream << ice_text(ice);
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(beside, path, error);
-  if (!stream || error) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
+void save_ice(const std::string& path, const servo::IceEstimate& ice) { replace_text(path, ice_text(ice)); }
 
 }  // namespace hogline

@@ -155,7 +155,9 @@ SkipOutcome follow_throw(const SkipRequest& request, const SkipProgress& progres
     if (request.interfere) request.interfere(robot, now);
     const auto released = robot.rink().released();
     if (request.announced && !told && released && now >= *released + signal_latency) {
-      loop.hear(signal_of(request.scene.thrown, *released, request.scenario.seed));
+      const servo::ReleaseSignal signal = signal_of(request.scene.thrown, *released, request.scenario.seed);
+      loop.hear(signal);
+      if (recorder) recorder->hear(signal, now);
       told = true;
     }
     loop.step(now, period);

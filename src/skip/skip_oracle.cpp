@@ -110,6 +110,7 @@ StoneSighting SkipOracle::sighting(const hw::sim::FieldStone& stone, const View&
   seen.team_confidence = 0.9;
   if (handles) {
     seen.handle_rad = std::remainder(stone.motion.handle_rad + handle_sigma_rad * normal(), std::numbers::pi);
+    seen.handle_sigma_rad = handle_sigma_rad;
   }
   return seen;
 }

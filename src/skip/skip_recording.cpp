@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <string_view>
 
 #include "src/config/config_error.hpp"
 
@@ -55,14 +57,53 @@ std::vector<HeadRow> head_rows(const std::string& path) {
   return rows;
 }
 
+constexpr const char* release_names =
+    "heard_s,time_s,x_m,y_m,vx_mps,vy_mps,spin_radps,place_sigma_m,velocity_sigma_mps,team";
+constexpr std::array<const char*, 3> team_words{"first", "second", "unknown"};
+
+std::optional<RecordedRelease> release_of(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) return std::nullopt;
+  std::string line;
+  if (!std::getline(stream, line) || line != release_names) {
+    throw config::ConfigError(path, 1, "", line, std::string("must begin with the line ") + release_names);
+  }
+  line.clear();
+  std::getline(stream, line);
+  double heard_s = 0.0, time_s = 0.0;
+  RecordedRelease release;
+  servo::ReleaseSignal& r = release.signal;
+  servo::SlidingStone& s = r.stone;
+  std::array<char, 8> word{};
+  char rest = 0;
+  const int read =
+      std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%7[a-z]%c", &heard_s, &time_s, &s.x_m, &s.y_m,
+                  &s.vx_mps, &s.vy_mps, &s.spin_radps, &r.place_sigma_m, &r.velocity_sigma_mps, word.data(), &rest);
+  const auto team = std::find(team_words.begin(), team_words.end(), std::string_view(word.data()));
+  const double sum = heard_s + time_s + s.x_m + s.y_m + s.vx_mps + s.vy_mps + s.spin_radps;
+  const bool good = read == 10 && team != team_words.end() && std::isfinite(sum) && std::abs(heard_s) < 1e6 &&
+                    std::abs(time_s) < 1e6 && r.place_sigma_m > 0.0 && r.velocity_sigma_mps > 0.0 &&
+                    std::isfinite(r.place_sigma_m + r.velocity_sigma_mps);
+  if (!good) {
+    throw config::ConfigError(path, 2, release_names, line,
+                              "must be nine numbers, the sigmas above 0, and first, second or unknown");
+  }
+  release.heard = from_seconds(heard_s);
+  r.stamp = Stamp{from_seconds(time_s)};
+  r.team = static_cast<Team>(team - team_words.begin());
+  return release;
+}
+
 }  // namespace
 
 SkipRecording read_skip_recording(const std::string& folder) {
-  SkipRecording recording{.near = stamps(folder + "/near.csv"), .far = stamps(folder + "/far.csv"), .head = {}};
+  SkipRecording recording{
+      .near = stamps(folder + "/near.csv"), .far = stamps(folder + "/far.csv"), .head = {}, .release = {}};
   if (recording.near.frames.empty() && recording.far.frames.empty()) {
     throw config::ConfigError(folder, 0, "near.csv, far.csv", "", "missing; a recorded throw has one of them at least");
   }
   recording.head = head_rows(folder + "/head.csv");
+  recording.release = release_of(folder + "/release.csv");
   return recording;
 }
 
@@ -110,6 +151,16 @@ RecordingSeer::~RecordingSeer() {
   for (const HeadRow& r : files_->rows) {
     head << fmt::format("{:.6f},{:.5f},{:.5f}\n", seconds(r.time), r.angles.pan_rad / deg, r.angles.tilt_rad / deg);
   }
+}
+
+void RecordingSeer::hear(const servo::ReleaseSignal& r, Stamp now) {
+  const auto count = [](Stamp stamp) { return seconds(stamp.time_since_epoch()); };
+  const servo::SlidingStone& s = r.stone;
+  std::ofstream file(files_->folder + "/release.csv");
+  file << release_names << "\n"
+       << fmt::format("{:.6f},{:.6f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{}\n", count(now), count(r.stamp),
+                      s.x_m, s.y_m, s.vx_mps, s.vy_mps, s.spin_radps, r.place_sigma_m, r.velocity_sigma_mps,
+                      team_words[static_cast<std::size_t>(r.team)]);
 }
 
 servo::NearSight RecordingSeer::near_view(const hw::Frame& frame, const servo::HeadAngles& q,

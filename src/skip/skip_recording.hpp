@@ -1,5 +1,6 @@
-// A recorded throw: a folder with near.csv and far.csv (name,id,time_s, a line a picture; doc/cameras.md) and head.csv
-// (time_s,pan_deg,tilt_deg). One of the two cameras may be missing.
+// A recorded throw: a folder with near.csv and far.csv (name,id,time_s, a line a picture; doc/cameras.md), head.csv
+// (time_s,pan_deg,tilt_deg), and release.csv where the thrower told when it let go (one line; the fields are
+// ReleaseSignal's). One of the two cameras may be missing.
 #pragma once
 
 #include <memory>
@@ -18,10 +19,17 @@ struct HeadRow {
   servo::HeadAngles angles;
 };
 
+/// What the thrower told, and when it was heard.
+struct RecordedRelease {
+  Duration heard{};
+  servo::ReleaseSignal signal;  ///< its stamp counts from the epoch, as the recording's times do from their zero
+};
+
 struct SkipRecording {
   hw::files::Recording near;  ///< empty where there is none
   hw::files::Recording far;
   std::vector<HeadRow> head;
+  std::optional<RecordedRelease> release{};
 };
 
 /// Throws ConfigError, naming file, line and what is wrong.
@@ -36,6 +44,9 @@ class RecordingSeer final : public SkipSeer {
   /// The seer must outlive it; the folder is there.
   RecordingSeer(SkipSeer& seer, const std::string& folder);
   ~RecordingSeer() override;
+
+  /// What the thrower told.
+  void hear(const servo::ReleaseSignal& signal, Stamp now);
 
   servo::NearSight near_view(const hw::Frame& frame, const servo::HeadAngles& q,
                              const servo::SkipDiagnosis& known) override;

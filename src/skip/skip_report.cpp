@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +10,7 @@
 
 #include "hw/files/png_writer.hpp"
 #include "src/drawing/sheet_plan.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 namespace {
@@ -129,13 +129,6 @@ ordered_json figures(const SkipOutcome& outcome) {
           {"simulated_s", rounded(outcome.simulated_s, 1e3)}};
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
-
 drawing::Ink ink_of(Team team) {
   if (team == Team::unknown) return drawing::inks::faint;
   return team == Team::first ? drawing::inks::red : drawing::inks::yellow;
@@ -174,6 +167,7 @@ std::string throw_json(const ToldThrow& told, int indent) {
       {"stones", stones(told)},
       {"foretold_stop", foretold(told)},
       {"ice", ice(told)}};
+  if (told.unread) object["unread"] = *told.unread;
   if (told.truth) object["against_truth"] = figures(*told.truth);
   return object.dump(indent);
 }

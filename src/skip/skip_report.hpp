@@ -21,6 +21,7 @@ struct ToldThrow {
   std::optional<servo::StopPrediction> foretold;  ///< where it would stop, as believed at the near hog line
   TeamNames teams;
   std::string seen_by;                 ///< "vision" or "oracle"
+  std::optional<int> unread;           ///< of a recording: pictures that could not be loaded
   const SkipOutcome* truth = nullptr;  ///< on the simulated rink
 };
 

@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <random>
-#include <stdexcept>
 #include <thread>
 
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
+#include "src/output/output_file.hpp"
 #include "src/skip/skip_figures.hpp"
 #include "src/stones_setup.hpp"
 
@@ -144,13 +143,6 @@ std::string csv_line(int number, const SkipRequest& request, const SkipFigures& 
       f.missed_collisions, f.invented_collisions, f.swaps, f.wrong_fates, reason);
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
-}
-
 }  // namespace
 
 config::SkipRig load_skip_rig_or_practice(const std::string& path) {
@@ -226,9 +218,9 @@ bool run_set(const SkipSet& set, const std::string& folder) {
       figures[k] = f;
       rows[k] = csv_line(number, request, f);
       fmt::print(stderr, "{}", rows[k]);
-      write(folder + "/throws.csv", csv_header() + fmt::format("{}", fmt::join(rows, "")));
+      write_text(folder + "/throws.csv", csv_header() + fmt::format("{}", fmt::join(rows, "")));
       const std::string text = table(sum_of(figures), set, example);
-      write(folder + "/table.md", text);
+      write_text(folder + "/table.md", text);
     }
   };
   {

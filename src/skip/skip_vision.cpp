@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "src/stones_setup.hpp"
 #include "vision/far_view/far_view.hpp"
-#include "vision/fit/sheet_fit.hpp"
 #include "vision/fit_percept.hpp"
 #include "vision/near_view.hpp"
-#include "vision/stones.hpp"
+#include "vision/planned_sheet.hpp"
+#include "vision/stone_sequence.hpp"
 
 namespace hogline {
 namespace {
 
-constexpr double search_px = 12.0;        // joint zeros and the near mount's pitch: a third of a degree
 constexpr double most_residual_px = 0.5;  // as the near view asks of its acquisitions
 constexpr double most_turn_rad = 0.012;   // of the fitted camera against body and joints
 constexpr double most_shift_m = 0.06;
-constexpr double tilt_step_rad = 0.026;  // 1.5 deg
 constexpr double same_angle_rad = 5e-4;
 
 vision::Pose pose_of(const servo::HeadGeometry& head, const servo::HeadAngles& q, const PlanarPose& body) {
@@ -44,6 +41,12 @@ vision::Mount mount_of(const servo::HeadGeometry& head, const servo::HeadAngles&
   return mount;
 }
 
+std::vector<StoneExpectation> expected_of(const servo::SkipDiagnosis& known) {
+  std::vector<StoneExpectation> expected;
+  for (const StoneSighting& s : known.expected) expected.push_back({s.x_m, s.y_m, s.covariance});
+  return expected;
+}
+
 vision::FarSetup far_setup(const config::SkipRig& rig) {
   const vision::StonesSetup stones = stones_setup(rig.rig);
   return {.camera = rig.rig.camera("far"), .shape = stones.shape, .teams = stones.teams};
@@ -53,17 +56,20 @@ vision::FarSetup far_setup(const config::SkipRig& rig) {
 
 struct SkipVision::Impl {
   explicit Impl(const config::SkipRig& skip_rig)
-      : rig(skip_rig), near(rig.rig.camera("near")), fit(rig.rig.camera("near")), far(far_setup(rig)) {}
+      : rig(skip_rig),
+        near(rig.rig.camera("near")),
+        sheet(rig.rig.camera("near")),
+        stones(stones_setup(rig.rig)),
+        far(far_setup(rig)) {}
 
   SheetPosePercept fitted(const hw::Frame& frame, const servo::HeadAngles& q, const servo::SkipDiagnosis& known);
   SheetPosePercept acquired(const hw::Frame& frame, const servo::HeadAngles& q);
-  vision::StoneFinder& finder_at(double tilt_rad);
 
   config::SkipRig rig;
   std::optional<vision::NearView> near;  ///< for the mount as the head holds it
   std::optional<servo::HeadAngles> near_at;
-  vision::SheetFit fit;
-  std::map<int, vision::StoneFinder> finders;  ///< by the head's tilt, in steps
+  vision::PlannedSheet sheet;
+  vision::StoneSequence stones;
   vision::FarSequence far;
 };
 
@@ -74,22 +80,18 @@ SheetPosePercept SkipVision::Impl::fitted(const hw::Frame& frame, const servo::H
                                           const servo::SkipDiagnosis& known) {
   SheetPosePercept percept;
   percept.stamp = frame.stamp;
-  vision::SheetFitStart start;
-  start.eMc = pose_of(rig.skip.near_head, q, *known.body);
-  start.search_px = search_px;
-  start.sheet_width_m = known.sheet_width_m;
-  start.may_be_hidden = true;
-  const vision::SheetFitResult& result = fit.fit(frame.bgr, start);
+  const vision::Pose planned = pose_of(rig.skip.near_head, q, *known.body);
+  const vision::SheetFitResult& result = sheet.look(frame.bgr, frame.stamp, planned, known.sheet_width_m);
   percept.reason = result.reason;
   if (!result.ok) return percept;
-  const vision::Pose moved = start.eMc.inverse() * result.eMc;
+  const vision::Pose moved = planned.inverse() * result.eMc;
   const bool elsewhere = Eigen::AngleAxisd(moved.linear()).angle() > most_turn_rad ||
                          moved.translation().norm() > most_shift_m || result.residual_px > most_residual_px;
   if (elsewhere) {
     percept.reason = "the paint does not lie where body and joints put it";
     return percept;
   }
-  percept.features.emplace_back("fitted");
+  percept.features.emplace_back(sheet.tracked() ? "tracked" : "fitted");
   vision::fill_percept(result, percept);
   percept.body = vision::planar_body(result.eMc, mount_of(rig.skip.near_head, q));
   return percept;
@@ -107,17 +109,6 @@ SheetPosePercept SkipVision::Impl::acquired(const hw::Frame& frame, const servo:
   return near->acquire(frame.bgr, frame.stamp);
 }
 
-// Where in the picture how large a stone may be is worked out once for each mount: one for every step of tilt. Pan does
-// not change it.
-vision::StoneFinder& SkipVision::Impl::finder_at(double tilt_rad) {
-  const int step = static_cast<int>(std::lround(tilt_rad / tilt_step_rad));
-  const auto known = finders.find(step);
-  if (known != finders.end()) return known->second;
-  vision::StonesSetup setup = stones_setup(rig.rig);
-  setup.camera.mount = mount_of(rig.skip.near_head, {.pan_rad = 0.0, .tilt_rad = step * tilt_step_rad});
-  return finders.emplace(step, setup).first->second;
-}
-
 servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::HeadAngles& q,
                                        const servo::SkipDiagnosis& known) {
   servo::NearSight sight;
@@ -130,8 +121,10 @@ servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::Head
   const auto width = sight.sheet.sheet_width_m ? sight.sheet.sheet_width_m : known.sheet_width_m;
   // A stone that runs out is followed until it is out: the finder leaves out what lies beyond the sidelines.
   const auto wide = width ? std::optional(*width + 0.6) : std::nullopt;
+  // Before the throw there is time to look at everything, again and again.
+  if (!known.body) impl_->stones.forget();
   sight.stones =
-      impl_->finder_at(q.tilt_rad).find(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide);
+      impl_->stones.look(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide, expected_of(known));
   return sight;
 }
 
@@ -147,9 +140,7 @@ FarPercept SkipVision::far_view(const hw::Frame& frame, const servo::HeadAngles&
   plan.pan_sigma_rad = std::hypot(impl_->rig.far_mount_sigma_rad, known.body_sigma.yaw_rad);
   plan.tilt_sigma_rad = plan.roll_sigma_rad = impl_->rig.far_mount_sigma_rad;
   plan.sheet_width_m = known.sheet_width_m;
-  std::vector<FarExpectation> expected;
-  for (const StoneSighting& s : known.expected) expected.push_back({s.x_m, s.y_m, s.covariance});
-  return impl_->far.look(frame.bgr, frame.stamp, plan, expected);
+  return impl_->far.look(frame.bgr, frame.stamp, plan, expected_of(known));
 }
 
 }  // namespace hogline

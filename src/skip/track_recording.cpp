@@ -9,12 +9,16 @@ namespace {
 
 constexpr Duration period = std::chrono::milliseconds(5);
 constexpr Duration never = std::chrono::hours(24);
-constexpr Duration base = std::chrono::seconds(1);  // the epoch stands for "never heard of"
+constexpr Duration after_last = std::chrono::milliseconds(250);  // whoever recorded it may have stopped in between
+constexpr Duration base = std::chrono::seconds(1);               // the epoch stands for "never heard of"
 
 servo::SkipConfig for_recordings(servo::SkipConfig config, const SkipRecording& recording) {
   config.deadlines.look = config.deadlines.aim = config.deadlines.wait = never;
   if (recording.near.frames.empty()) config.ages.pose = never;
   if (recording.far.frames.empty()) config.ages.far = never;
+  if (recording.release && config.expected_spin_radps == 0.0) {
+    config.expected_spin_radps = recording.release->signal.stone.spin_radps;
+  }
   return config;
 }
 
@@ -31,7 +35,9 @@ class Player {
   }
 
   Stamp begin() const { return Stamp{base}; }
-  Stamp end() const { return begin() + (end_ - begin_); }
+  Stamp end() const { return replayed(end_) + after_last; }
+  Stamp replayed(Duration time) const { return begin() + (time - begin_); }
+  int unread() const { return unread_; }
   int near_frames() const { return static_cast<int>(near_); }
   int far_frames() const { return static_cast<int>(far_); }
 
@@ -39,6 +45,11 @@ class Player {
     servo::SkipObservation o;
     o.now = now;
     o.head = head(now);
+    if (!told_ && recording_.release && recorded(now) >= recording_.release->heard) {
+      told_ = true;
+      o.release = recording_.release->signal;
+      o.release->stamp = replayed(recording_.release->signal.stamp.time_since_epoch());
+    }
     if (const auto f = next(recording_.near, near_, now)) {
       if (const auto q = angles(f->time)) o.near = seer_.near_view(frame(*f), *q, known);
     }
@@ -52,10 +63,11 @@ class Player {
   Duration recorded(Stamp now) const { return begin_ + (now - begin()); }
   std::optional<servo::HeadAngles> angles(Duration time) const { return angles_at(recording_, time); }
 
-  hw::Frame frame(const hw::files::RecordedFrame& f) const {
+  hw::Frame frame(const hw::files::RecordedFrame& f) {
     hw::Frame loaded = load_(f);
+    unread_ += loaded.bgr.empty() ? 1 : 0;
     loaded.id = f.id;
-    loaded.stamp = begin() + (f.time - begin_);
+    loaded.stamp = replayed(f.time);
     return loaded;
   }
 
@@ -70,7 +82,8 @@ class Player {
   servo::HeadObservation head(Stamp now) const {
     servo::HeadObservation h;
     h.enabled = h.on_target = true;
-    const auto q = angles(recorded(now)), before = angles(recorded(now) - period);
+    const Duration time = std::min(recorded(now), end_);
+    const auto q = angles(time), before = angles(time - period);
     if (!q) {
       h.error = "the recording does not say where the head looked";
       return h;
@@ -90,6 +103,8 @@ class Player {
   Duration end_{};
   std::size_t near_ = 0;
   std::size_t far_ = 0;
+  bool told_ = false;
+  int unread_ = 0;
 };
 
 }  // namespace
@@ -100,6 +115,7 @@ TrackedThrow track_recording(const SkipRecording& recording, servo::SkipConfig c
   servo::Skip skip(for_recordings(std::move(config), recording), servo::from_other_end(ice), player.begin());
   TrackedThrow tracked;
   tracked.origin = player.begin();
+  if (recording.release) tracked.origin = player.replayed(recording.release->signal.stamp.time_since_epoch());
   for (Stamp now = player.begin(); now <= player.end() && !skip.finished(); now += period) {
     skip.step(player.observe(now, skip.diagnosis()), period);
     const servo::SkipDiagnosis& known = skip.diagnosis();
@@ -110,6 +126,7 @@ TrackedThrow track_recording(const SkipRecording& recording, servo::SkipConfig c
   tracked.known = skip.diagnosis();
   tracked.near_frames = player.near_frames();
   tracked.far_frames = player.far_frames();
+  tracked.unread = player.unread();
   return tracked;
 }
 

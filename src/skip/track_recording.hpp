@@ -16,9 +16,10 @@ struct TrackedThrow {
   servo::SkipReport report;
   servo::SkipDiagnosis known;
   std::optional<servo::StopPrediction> foretold;  ///< the last one before the near hog line
-  Stamp origin{};                                 ///< of the first picture
+  Stamp origin{};                                 ///< of the release where it was recorded, else of the first picture
   int near_frames = 0;
   int far_frames = 0;
+  int unread = 0;  ///< of these, how many could not be loaded
 };
 
 /// `config` as for the live skip; ages of cameras that the recording does not have are not asked for. Deterministic.

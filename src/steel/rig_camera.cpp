@@ -5,6 +5,7 @@
 
 #include "hw/aravis/aravis_camera.hpp"
 #include "hw/files/recorded_camera.hpp"
+#include "hw/shared_frames/shared_camera.hpp"
 
 namespace hogline {
 namespace {
@@ -49,6 +50,14 @@ std::unique_ptr<hw::Camera> open_rig_camera(const config::Rig& rig, const std::s
                    return std::make_unique<hw::AravisCamera>(a, clock);
                  },
                  [&](const config::FolderSource& f) { return folder_camera(f, device, size, clock.now()); },
+                 [&](const config::SharedMemorySource& s) -> std::unique_ptr<hw::Camera> {
+                   return std::make_unique<hw::SharedCamera>(
+                       hw::SharedCameraConfig{.name = device,
+                                              .segment = s.segment,
+                                              .width_px = static_cast<std::uint32_t>(lens.width_px),
+                                              .height_px = static_cast<std::uint32_t>(lens.height_px),
+                                              .silence_limit = rig.source(name).silence_limit});
+                 },
                  [&](const config::VideoSource& v) -> std::unique_ptr<hw::Camera> {
                    return std::make_unique<hw::files::VideoCamera>(device, v.path, v.rate_hz, size, clock.now());
                  }},
@@ -60,6 +69,7 @@ std::string describe_source(const config::CameraSource& source) {
       Overloaded{[](const config::SimulatedSource&) { return std::string("simulated"); },
                  [](const hw::AravisConfig& a) { return "aravis " + a.serial; },
                  [](const config::FolderSource& f) { return "folder " + (f.stamps.empty() ? f.path : f.stamps); },
+                 [](const config::SharedMemorySource& s) { return "shared memory " + s.segment; },
                  [](const config::VideoSource& v) { return "video " + v.path; }},
       source.device);
 }

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 
 #include "src/config/config_error.hpp"
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 namespace {
@@ -63,13 +63,7 @@ void save_release_knowledge(const std::string& path, const servo::ReleaseKnowled
   const ordered_json object{{"gripper_delay_s", k.delay_s},    {"gripper_delay_sigma_s", std::sqrt(k.covariance[0])},
                             {"drag_mps", k.drag_mps},          {"drag_sigma_mps", std::sqrt(k.covariance[3])},
                             {"covariance_m", k.covariance[1]}, {"throws", k.throws}};
-  const std::string beside = path + ".new";
-  std::ofstream stream(beside, std::ios::binary);
-  stream << object.dump(2) << "\n";
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(beside, path, error);
-  if (!stream || error) throw std::runtime_error(path + ": can not be written; check the folder and the disk's space");
+  replace_text(path, object.dump(2) + "\n");
 }
 
 }  // namespace hogline

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iterator>
 #include <numbers>
-#include <stdexcept>
+
+#include "src/output/output_file.hpp"
 
 namespace hogline {
 
@@ -21,11 +21,7 @@ void ThrowLog::write_csv(const std::string& path) const {
                    s.true_speed_mps, s.true_hog_distance_m, s.stone_x_m, s.stone_y_m, s.stone_held ? 1 : 0,
                    s.believed_yaw_rad * deg, s.believed_hog_distance_m, s.believed_speed_mps, s.speed_setpoint_mps);
   }
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw std::runtime_error(fmt::format("{}: can not be written; check the folder and the disk's space", path));
+  write_text(path, text);
 }
 
 }  // namespace hogline

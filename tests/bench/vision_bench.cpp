@@ -2,11 +2,13 @@
 #include <benchmark/benchmark.h>
 #include <gsl/gsl_errno.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
+#include "tests/support/random_board.hpp"
 #include "tests/support/random_far_scene.hpp"
 #include "tests/support/turning_sequence.hpp"
 #include "tests/vision/scene.hpp"
@@ -14,6 +16,7 @@
 #include "vision/fit/sheet_fit.hpp"
 #include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
+#include "vision/stone_sequence.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -93,6 +96,53 @@ void far_track(benchmark::State& state) {
   state.counters["stones"] = stones;
 }
 
+/// The skip's near view of a board with so many stones, and pictures of it, each with its own noise.
+struct SeenBoard {
+  explicit SeenBoard(std::size_t stones) {
+    for (std::uint64_t seed = 1; board.stones.size() != stones; ++seed) board = hogline::testing::random_board(seed);
+    const auto& scene = board.scene;
+    const hogline::hw::sim::SheetRenderer renderer(scene.setup.intrinsics, scene.setup.ice, scene.rink, scene.sensor,
+                                                   scene.seed);
+    for (std::size_t k = 0; k < pictures.size(); ++k) renderer.render(scene.exposure, k, pictures[k]);
+    setup.camera = scene.setup;
+  }
+  hogline::testing::RandomBoard board;
+  std::array<cv::Mat, 8> pictures;
+  StonesSetup setup;
+};
+
+// The stones of one picture without memory, the pose known.
+void near_stones_find(benchmark::State& state) {
+  const SeenBoard seen(static_cast<std::size_t>(state.range(0)));
+  StoneFinder finder(seen.setup);
+  std::size_t k = 0;
+  double stones = 0.0;
+  for (auto _ : state) {
+    const cv::Mat& picture = seen.pictures[k++ % seen.pictures.size()];
+    const auto& scene = seen.board.scene;
+    stones = static_cast<double>(finder.find(picture, Stamp{}, scene.eMc, scene.sheet_width_m).stones.size());
+  }
+  state.counters["stones"] = stones;
+}
+
+// The same of consecutive pictures: every part of the search has its turn.
+void near_stones_track(benchmark::State& state) {
+  const SeenBoard seen(static_cast<std::size_t>(state.range(0)));
+  StoneSequence sequence(seen.setup);
+  Stamp stamp{};
+  std::size_t k = 0;
+  double stones = 0.0;
+  const auto step = [&] {
+    stamp += from_seconds(1.0 / 60.0);
+    const cv::Mat& picture = seen.pictures[k++ % seen.pictures.size()];
+    const auto& scene = seen.board.scene;
+    stones = static_cast<double>(sequence.look(picture, stamp, scene.eMc, scene.sheet_width_m, {}).stones.size());
+  };
+  for (int i = 0; i < 8; ++i) step();
+  for (auto _ : state) step();
+  state.counters["stones"] = stones;
+}
+
 // A frame of a robot that turns at 20 deg/s, to and fro: eight frames are drawn, so that each comes from memory anew.
 void near_track(benchmark::State& state) {
   const hogline::testing::TurningSequence sequence(hogline::testing::turning_move());
@@ -123,6 +173,8 @@ BENCHMARK_CAPTURE(near_acquire, no_sidelines, "near/near-11-003")->Unit(benchmar
 BENCHMARK_CAPTURE(near_acquire, stones, "skip/skip-12-002")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near_fit, plain, "near/near-11-000")->Unit(benchmark::kMillisecond);
 BENCHMARK(near_track)->Unit(benchmark::kMillisecond);
+BENCHMARK(near_stones_find)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(near_stones_track)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK(far_look)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK(far_track)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 

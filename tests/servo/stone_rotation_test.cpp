@@ -46,14 +46,36 @@ TEST(StoneRotation, IsMeasuredWithinItsSigmaWhicheverEndOfTheGripIsSeen) {
   EXPECT_LT(std::sqrt(square / count), 1.5);
 }
 
+// Somebody stands in the way for two seconds; every eighth look is of something else; six looks a second.
+TEST(StoneRotation, IsMeasuredThroughAGapAmongWildLooksAndAtLowRates) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(-3.1, 3.1);
+  for (const double spin : {-1.57, 0.6, 1.57, 3.0}) {
+    for (const int each : {1, 5}) {
+      const std::vector<HandleLook> all = handles(spin, 1.0, 0.1, true, 11);
+      std::vector<HandleLook> looks;
+      for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(each)) {
+        if (all[i].after_s > 6.0 && all[i].after_s < 8.0) continue;
+        looks.push_back(all[i]);
+        if (looks.size() % 8 == 0) looks.back().handle_rad = any(random);
+      }
+      const StoneRotation rotation = rotation_of(looks, draw);
+      ASSERT_TRUE(rotation.ok) << spin << ", each " << each << ": " << rotation.reason;
+      EXPECT_NEAR(rotation.spin_radps, spin, std::max(0.03, 4.0 * rotation.sigma_radps));
+      EXPECT_LT(rotation.sigma_radps, 0.05);
+    }
+  }
+}
+
 TEST(StoneRotation, SaysWhyItIsNotKnown) {
   std::vector<HandleLook> looks = handles(1.5, 1.0, 0.05, false, 1);
   const auto reason = [](const std::vector<HandleLook>& some) { return rotation_of(some, draw).reason; };
   EXPECT_EQ(reason({}), "the handle was seen too seldom");
   EXPECT_EQ(reason({looks.begin(), looks.begin() + 15}), "the handle was seen too shortly");
-  std::vector<HandleLook> gap = looks;
-  gap.erase(gap.begin() + 50, gap.begin() + 80);
-  EXPECT_EQ(reason(gap), "the handle was hidden for too long");
+  // Half a second, eight seconds of nothing, half a second.
+  std::vector<HandleLook> gap(looks.begin(), looks.begin() + 15);
+  gap.insert(gap.end(), looks.begin() + 260, looks.begin() + 275);
+  EXPECT_EQ(reason(gap), "the handle was hidden for too long: several rates agree with what was seen");
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(-3.1, 3.1);
   for (HandleLook& look : looks) look.handle_rad = any(random);

@@ -131,6 +131,37 @@ class WrongUse(unittest.TestCase):
         self.refuses(run("dcotor", "--rig", RIG), "dcotor", "did you mean doctor?", "pose", "faults")
         self.refuses(run("xylophone"), "xylophone", "throw")
 
+    def test_a_mistyped_option(self):
+        self.refuses(run("--helpp"), "--helpp", "did you mean --help?")
+        self.refuses(run("throw", "--sped", "2"), "--sped", "hogline throw --help")
+
+    def test_an_empty_value(self):
+        for words in (["throw", "--out", ""], ["throw", "--learn", ""], ["stones", "--rig", "", SCENE],
+                      ["skip", "--ice", ""], ["campaign", "--throws", "1", "--rig", ""]):
+            self.refuses(run(*words), words[words.index("") - 1], "is empty")
+
+    def test_options_that_contradict_each_other(self):
+        for words in (["throw", "--from", "a:1", "--speed", "2"], ["skip", "--number", "3", "--throw", "draw"],
+                      ["campaign", "--throws", "1", "--per-fault", "2"],
+                      ["campaign", "--throws", "1", "--tee-draws", "--speed", "2"],
+                      ["campaign", "--throws", "1", "--faults", "all"],
+                      ["pose", "--rig", RIG, "--camera", "near", "--rate", "30", SCENE]):
+            self.refuses(run(*words), words[0], "--help")
+
+    def test_what_is_missing(self):
+        self.refuses(run("campaign"), "--throws", "missing")
+        self.refuses(run("sights"), "--throws", "required")
+        self.refuses(run("throw", "--fault", "gyro-silent"), "KIND@SECONDS")
+
+    def test_results_that_can_not_be_written(self):
+        for words in (["game", "--out"], ["stones", "--rig", RIG, SCENE, "--draw"],
+                      ["board", "--rig", RIG, SCENE, "--out"], ["throw", "--out"], ["sights", "--throws", "1", "--out"],
+                      ["faults", "--out"]):
+            self.refuses(run(*words, "/proc/none/of/this"), words[-1], "can be written to")
+
+    def test_a_skip_is_not_examined_on_the_throwers_rink(self):
+        self.refuses(run("doctor", "--simulated", "--rig", os.path.join(SOURCE, "config/rigs/skip.yaml")), "thrower")
+
     def test_no_subcommand(self):
         self.assertEqual(run().returncode, 2)
 
@@ -263,7 +294,11 @@ class Stones(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = [json.loads(line) for line in result.stdout.splitlines()]
         self.assertEqual([len(line["stones"]) for line in lines], [6, 6])
-        self.assertEqual(set(lines[0]["stones"][0]), {"x_m", "y_m", "team", "sigma_m"})
+        stone = lines[0]["stones"][0]
+        self.assertEqual(set(stone), {"x_m", "y_m", "team", "sigma_m", "handle_deg", "handle_sigma_deg"})
+        handles = [s["handle_deg"] for s in lines[0]["stones"] if s["handle_deg"] is not None]
+        self.assertGreaterEqual(len(handles), 4)
+        self.assertTrue(all(-90.0 <= h <= 90.0 for h in handles), handles)
 
     def test_a_sequence_is_averaged(self):
         one = json.loads(run("stones", "--rig", RIG, self.SKIP).stdout)
@@ -346,7 +381,7 @@ class Draw(unittest.TestCase):
                       ("stones", "--rig", RIG, "--draw", "", SCENE), ("board", "--rig", RIG, "--out", "", SCENE)):
             result = run(*words)
             self.assertEqual(result.returncode, 2, words)
-            self.assertIn("folder", result.stderr)
+            self.assertIn(words[words.index("") - 1], result.stderr)
 
     def test_pictures_of_one_name_from_two_folders_are_two_drawings(self):
         with tempfile.TemporaryDirectory() as folder:

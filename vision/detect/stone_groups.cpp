@@ -114,18 +114,61 @@ StoneGroupFinder::Extent StoneGroupFinder::extent_at(const SheetCamera& camera, 
 
 StoneGroups StoneGroupFinder::find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response) {
   StoneGroups groups;
+  begin(bgr, groups);
+  for (const Band& band : bands_) {
+    if (band.bottom <= band.top) continue;
+    find_granite(band, bgr, ice, response);
+    cv::integral(granite_, sums_, CV_32S);
+    mark_centres(band, bgr.cols, groups.centres);
+  }
+  groups.boxes = boxes_of(bgr.size());
+  return groups;
+}
+
+void StoneGroupFinder::begin(const cv::Mat& bgr, StoneGroups& groups) {
   groups.top = top_;
   groups.centres.create((bgr.rows - top_) / 2, bgr.cols / 2, CV_8UC1);
   groups.centres.setTo(0);
   cells_.create((bgr.rows - top_) / cell_px + 1, bgr.cols / cell_px + 1, CV_8UC1);
   cells_.setTo(0);
-  for (const Band& band : bands_) {
+}
+
+StoneGroups StoneGroupFinder::find_unexplained(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
+                                               const GroupSearch& search) {
+  StoneGroups groups;
+  begin(bgr, groups);
+  for (Band band : bands_) {
+    band.top = std::max(band.top, search.first_row / 4 * 4);
+    band.bottom = std::min(band.bottom, search.last_row / 4 * 4);
     if (band.bottom <= band.top) continue;
     find_granite(band, bgr, ice, response);
+    for (const auto& outline : search.explained) leave_out(band, outline);
+    cv::integral(granite_, sums_, CV_32S);
     mark_centres(band, bgr.cols, groups.centres);
   }
-  groups.boxes = boxes_of(bgr.size());
   return groups;
+}
+
+void StoneGroupFinder::leave_out(const Band& band, const std::vector<cv::Point>& outline) {
+  std::vector<cv::Point> steps;
+  for (const cv::Point& p : outline) {
+    steps.emplace_back(p.x / band.step + margin, (p.y - band.top) / band.step + margin);
+  }
+  cv::fillConvexPoly(granite_, steps, cv::Scalar::all(0));
+}
+
+// A row of a band costs by its steps, across and down.
+int StoneGroupFinder::part_begins(int number, int count) const {
+  double all = 0.0;
+  for (const Band& b : bands_) all += std::max(0, b.bottom - b.top) / static_cast<double>(b.step * b.step);
+  double wanted = all * number / count;
+  for (const Band& b : bands_) {
+    const double rows = std::max(0, b.bottom - b.top);
+    const double cost = rows / (b.step * b.step);
+    if (wanted < cost) return b.top + static_cast<int>(wanted * b.step * b.step) / 4 * 4;
+    wanted -= cost;
+  }
+  return bands_[1].bottom;
 }
 
 // In steps of `step` pixels, 1 where the mean of four pixels may be granite; with a margin of nothing about it.
@@ -151,11 +194,12 @@ void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const 
           const int sum = upper[k] + upper[k + 3] + lower[k] + lower[k + 3] + 2;
           return response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
         };
-        out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
+        // Most of it is ice: its green alone says so.
+        const float green = light(1);
+        out[c] = green < lightest_granite && may_be_granite(light(0), green, light(2)) ? 1 : 0;
       }
     }
   }
-  cv::integral(granite_, sums_, CV_32S);
 }
 
 // Marks are of half the picture's size, cells of an eighth.
@@ -164,15 +208,22 @@ void StoneGroupFinder::mark_centres(const Band& band, int columns, cv::Mat& cent
   const int row_length = static_cast<int>(sums_.step1());
   for (int y = band.top; y < band.bottom; y += band.step) {
     const int* sums = sums_.ptr<int>((y - band.top) / band.step + margin) + margin;
-    for (int c = 0; c < columns / band.step; ++c) {
-      const Extent& e = extent(band.step * c, y);
-      if (!e.seen || e.body.count(sums + c, row_length) < e.least_body) continue;
-      if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
-      for (int i = 0; i < size; ++i) {
-        std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
-        std::fill(out, out + size, std::uint8_t{255});
+    for (int begin = 0; begin < columns / band.step; begin += block_px / band.step) {
+      const Extent& e = extent(band.step * begin, y);
+      const int end = std::min(begin + block_px / band.step, columns / band.step);
+      // Over ice there is no granite for any of a block's places.
+      Rectangle of_all = e.body;
+      of_all.right += end - begin - 1;
+      if (!e.seen || of_all.count(sums + begin, row_length) < e.least_body) continue;
+      for (int c = begin; c < end; ++c) {
+        if (e.body.count(sums + c, row_length) < e.least_body) continue;
+        if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
+        for (int i = 0; i < size; ++i) {
+          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
+          std::fill(out, out + size, std::uint8_t{255});
+        }
+        cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;
       }
-      cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;
     }
   }
 }

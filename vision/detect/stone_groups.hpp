@@ -18,6 +18,13 @@ struct StoneGroups {
   int top = 0;                  ///< a multiple of four
 };
 
+/// Of a picture in which stones are known already.
+struct GroupSearch {
+  int first_row = 0;                              ///< handles' centres from here
+  int last_row = 0;                               ///< to before here
+  std::vector<std::vector<cv::Point>> explained;  ///< convex, pixels: granite in there is a known stone's
+};
+
 /// Needs the mount only. Far stones are looked for at half the picture's size, near ones at a quarter. Granite is
 /// neutral grey, darker than ice and lighter than black: it is told from paint by its colour, from lines and dividers
 /// by its extent. Trousers and shadows may pass; what is in a box is judged later.
@@ -27,6 +34,13 @@ class StoneGroupFinder {
 
   /// Precondition: CV_8UC3 of the setup's size.
   StoneGroups find(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
+
+  /// Only where handles' centres may be (`boxes` stays empty), for granite that nothing explains.
+  StoneGroups find_unexplained(const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response,
+                               const GroupSearch& search);
+
+  /// Rows in about `count` parts that cost as much as each other: where part `number` begins.
+  int part_begins(int number, int count) const;
 
   /// The first row in which ice of interest can lie.
   int top() const { return top_; }
@@ -72,6 +86,8 @@ class StoneGroupFinder {
   }
   void choose_bands(int bottom);
   int first_big_row() const;
+  void begin(const cv::Mat& bgr, StoneGroups& groups);
+  void leave_out(const Band& band, const std::vector<cv::Point>& outline);
   void find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
   void mark_centres(const Band& band, int columns, cv::Mat& centres);
   std::vector<cv::Rect> boxes_of(cv::Size picture) const;

@@ -1,6 +1,8 @@
 #include "vision/detect/stone_vote.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 namespace hogline::vision {
 namespace {
@@ -12,6 +14,14 @@ constexpr float big_y_px = 4.5F;
 constexpr float handle_share = 0.55F;
 constexpr float handle_alone = 0.70F;
 constexpr float neighbours_may = 0.08F;  // have so many more votes
+
+/// How many zeros follow, counted in eights but for one. Precondition: the first is zero.
+int empty_run(const std::uint8_t* from, int count) {
+  int run = 1;
+  std::uint64_t eight = 0;
+  while (run + 8 <= count && (std::memcpy(&eight, from + run, 8), eight == 0)) run += 8;
+  return run;
+}
 
 }  // namespace
 
@@ -65,7 +75,10 @@ void StoneVoter::collect(const StoneGroups& groups, float least) {
   for (int r = 0; r < groups.centres.rows; ++r) {
     const std::uint8_t* possible = groups.centres.ptr<std::uint8_t>(r);
     for (int c = 0; c < groups.centres.cols; ++c) {
-      if (possible[c] == 0) continue;
+      if (possible[c] == 0) {
+        c += empty_run(possible + c, groups.centres.cols - c) - 1;
+        continue;
+      }
       const int x = 2 * c;
       const int y = groups.top + 2 * r;
       const StoneOutline& outline = outlines_.at(x, y);
@@ -89,13 +102,17 @@ void StoneVoter::vote(int x, int y, float least, const StoneOutline& outline) {
 // A few marks on both sides of the body and along the handle's near edge: where hardly any of them stands on an edge
 // the rest are not worth asking.
 bool StoneVoter::worth_asking(const StoneOutline& outline, float x, float y) {
-  float body = 0.0F;
-  float handle = 0.0F;
-  for (const OutlineMark& m : outline.first_body) body += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
-  for (const OutlineMark& m : outline.first_handle) handle += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
   constexpr auto marks = static_cast<float>(StoneOutline::first_body_marks + StoneOutline::first_handle_marks);
-  return body + handle >= first_share * marks ||
-         handle >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks);
+  float found = 0.0F;
+  for (const OutlineMark& m : outline.first_handle) found += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+  if (found >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks)) return true;
+  auto left = static_cast<float>(StoneOutline::first_body_marks);
+  for (const OutlineMark& m : outline.first_body) {
+    if (found + left < first_share * marks) return false;
+    found += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+    left -= 1.0F;
+  }
+  return found >= first_share * marks;
 }
 
 StoneVoter::Votes StoneVoter::votes_for(const StoneOutline& outline, float x, float y) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "vision/far_view/far_view_impl.hpp"
+#include "vision/handle_angle.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -14,6 +15,9 @@ constexpr double along_per_across = 3.0;  // by which places are less sure along
 constexpr double sure_px = 1.5;           // a prediction better than this needs no votes
 constexpr int parts = 4;                  // the picture is searched in so many pictures
 constexpr double most_speed_mps = 5.0;
+constexpr double running_mps = 0.3;
+constexpr double handle_range_m = 26.0;   // farther away a grip is a few pixels high, and seen nearly from the side
+constexpr double handle_period_s = 0.06;  // a stone turns by a tenth of a turn in it
 
 }  // namespace
 
@@ -34,13 +38,15 @@ struct FarSequence::Impl {
 
   explicit Impl(const FarSetup& setup) : view(setup, quick_screening()) {}
 
-  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, const std::vector<FarExpectation>& expected);
+  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
+                  const std::vector<StoneExpectation>& expected);
   const FarAim& aim(const PictureLight& light, const FarPlan& plan);
   bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
-  bool sure(const FarExpectation& expectation) const;
-  std::vector<Predicted> predict(Stamp stamp, const std::vector<FarExpectation>& expected) const;
+  bool sure(const StoneExpectation& expectation) const;
+  std::vector<Predicted> predict(Stamp stamp, const std::vector<StoneExpectation>& expected) const;
   FarSearch search(const std::vector<Predicted>& predicted, const FarArea& area);
   void remember(Stamp stamp, const std::vector<JudgedStone>& stones);
+  void measure_handles(Stamp stamp, FarPercept& seen);
   FarPlace place_of(const Eigen::Vector2d& place) const;
 
   FarView::Impl view;
@@ -49,6 +55,7 @@ struct FarSequence::Impl {
   FarCorrection correction;  ///< of the last picture
   int part = 0;
   std::vector<Known> known;
+  Stamp handles_at{};  ///< when handles' directions were asked for last
 };
 
 // The last picture's correction is the plan's, unless the sheet has gone from there: then it is looked for anew.
@@ -82,7 +89,7 @@ bool FarSequence::Impl::same(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return std::hypot(a.x() - b.x(), (a.y() - b.y()) / along_per_across) < same_stone_m;
 }
 
-bool FarSequence::Impl::sure(const FarExpectation& expectation) const {
+bool FarSequence::Impl::sure(const StoneExpectation& expectation) const {
   const SheetCamera& camera = *view.levels.middle().camera;
   const Eigen::Vector3d eye = camera.eMc().translation();
   const double range_m = std::hypot(expectation.x_m - eye.x(), expectation.y_m - eye.y());
@@ -94,13 +101,13 @@ bool FarSequence::Impl::sure(const FarExpectation& expectation) const {
 
 // By its own motion; a tracker knows better. What only the tracker knows of is looked for by votes.
 std::vector<FarSequence::Impl::Predicted> FarSequence::Impl::predict(
-    Stamp stamp, const std::vector<FarExpectation>& expected) const {
+    Stamp stamp, const std::vector<StoneExpectation>& expected) const {
   std::vector<Predicted> all;
   for (const Known& k : known) {
     const double dt_s = seconds(stamp - k.stamp);
     all.push_back({&k, k.seen.fit.place + dt_s * k.velocity, k.followed});
   }
-  for (const FarExpectation& e : expected) {
+  for (const StoneExpectation& e : expected) {
     const Eigen::Vector2d place(e.x_m, e.y_m);
     const auto nearest = std::min_element(all.begin(), all.end(), [&](const Predicted& a, const Predicted& b) {
       return (a.place - place).norm() < (b.place - place).norm();
@@ -180,8 +187,25 @@ void FarSequence::Impl::remember(Stamp stamp, const std::vector<JudgedStone>& st
   known = std::move(next);
 }
 
+// Of what runs: it tells how it turns. In the whole picture, where a grip is largest.
+void FarSequence::Impl::measure_handles(Stamp stamp, FarPercept& seen) {
+  if (seconds(stamp - handles_at) < handle_period_s && stamp >= handles_at) return;
+  const StonePicture picture = view.levels[0].picture(view.response, view.setup.shape);
+  std::vector<Eigen::Vector2d> places;
+  for (const StoneSighting& s : seen.stones) places.emplace_back(s.x_m, s.y_m);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool near_enough = (places[i] - picture.eye().head<2>()).norm() < handle_range_m;
+    const bool runs = std::any_of(known.begin(), known.end(), [&](const Known& k) {
+      return k.stamp == stamp && k.followed && k.velocity.norm() > running_mps && k.seen.fit.place == places[i];
+    });
+    if (!near_enough || !runs) continue;
+    measure_handle(picture, places, seen.stones[i]);
+    handles_at = stamp;
+  }
+}
+
 FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
-                                   const std::vector<FarExpectation>& expected) {
+                                   const std::vector<StoneExpectation>& expected) {
   FarPercept seen;
   seen.stamp = stamp;
   seen.reason = unusable(image, view.setup.camera.intrinsics, plan);
@@ -202,6 +226,7 @@ FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarP
 
   view.report(stones, seen);
   remember(stamp, stones);
+  measure_handles(stamp, seen);
   return seen;
 }
 
@@ -211,7 +236,7 @@ FarSequence::FarSequence(FarSequence&&) noexcept = default;
 FarSequence& FarSequence::operator=(FarSequence&&) noexcept = default;
 
 FarPercept FarSequence::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
-                             const std::vector<FarExpectation>& expected) {
+                             const std::vector<StoneExpectation>& expected) {
   return impl_->look(image, stamp, plan, expected);
 }
 

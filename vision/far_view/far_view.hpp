@@ -62,7 +62,8 @@ class FarSequence {
   FarSequence& operator=(FarSequence&&) noexcept;
 
   /// `plan.eMc` is of this picture's stamp. `expected` may be empty.
-  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, const std::vector<FarExpectation>& expected);
+  FarPercept look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
+                  const std::vector<StoneExpectation>& expected);
 
   /// The next picture has no predecessor.
   void forget();

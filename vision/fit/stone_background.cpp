@@ -76,34 +76,64 @@ float grip_px(const SightLines& sights, Eigen::Index i, double eye_m) {
   return std::clamp(grip_m / std::max(1e-9F, per_px), 2.5F, 12.0F);
 }
 
+/// Where a pixel's outline is, outward of it in the picture.
+struct Rim {
+  Point at;
+  Point outward;
+};
+
+class Outline {
+ public:
+  Outline(const StonePlace& stone, const Eigen::Vector3d& eye, const StonePixels& pixels) : pixels_(pixels) {
+    handle_distances(stone, eye, pixels.sights, handle_);
+    body_distances(stone, eye, pixels.sights, body_);
+  }
+  bool on_far_rim(Eigen::Index i) const { return handle_.px[i] > body_.px[i]; }
+  float inside_px(Eigen::Index i) const { return std::max(handle_.px[i], body_.px[i]); }
+  Rim rim(Eigen::Index i) const {
+    const Point outward = on_far_rim(i) ? Point{handle_.outward_x[i], handle_.outward_y[i]}
+                                        : Point{body_.outward_x[i], body_.outward_y[i]};
+    return {Point{pixels_.x[i], pixels_.y[i]}.ahead(inside_px(i), outward), outward};
+  }
+
+ private:
+  const StonePixels& pixels_;
+  DiscDistances handle_;
+  BodyDistances body_;
+};
+
 }  // namespace
 
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
-                 const Light& handle_colour, StonePixels& pixels) {
+void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& pixels) {
   if (pixels.count() == 0) return;
-  DiscDistances handle;
-  BodyDistances body;
-  handle_distances(stone, eye, pixels.sights, handle);
-  body_distances(stone, eye, pixels.sights, body);
+  const Outline outline(stone, eye, pixels);
   const Sides sides(source, pixels);
-  const Eigen::Array3f colour = handle_colour.cast<float>().array();
-  const bool coloured = handle_colour.squaredNorm() > 0.0;
   pixels.usable.setOnes();
   pixels.behind.setZero();
   for (Eigen::Index i = 0; i < pixels.count(); ++i) {
-    const bool far_rim = handle.px[i] > body.px[i];
-    const float px = far_rim ? handle.px[i] : body.px[i];
-    if (px > reach_px) continue;
-    const Point outward =
-        far_rim ? Point{handle.outward_x[i], handle.outward_y[i]} : Point{body.outward_x[i], body.outward_y[i]};
-    const Point rim = Point{pixels.x[i], pixels.y[i]}.ahead(px, outward);
-    const Point beyond = rim.ahead(clearance_px, outward);
+    if (outline.inside_px(i) > reach_px) continue;
+    const Rim rim = outline.rim(i);
+    const Point beyond = rim.at.ahead(clearance_px, rim.outward);
     Eigen::Array3f behind;
-    const bool known = (far_rim && sides.at(beyond, behind)) || mean_light(source, beyond, outward, behind);
+    const bool known =
+        (outline.on_far_rim(i) && sides.at(beyond, behind)) || mean_light(source, beyond, rim.outward, behind);
     if (known) pixels.behind.row(i) = behind.transpose();
-    const bool grip = known && far_rim && coloured &&
-                      grip_over(source, rim, outward, grip_px(pixels.sights, i, eye.z()), colour, behind);
-    pixels.usable[i] = known && !grip ? 1.0F : 0.0F;
+    pixels.usable[i] = known ? 1.0F : 0.0F;
+  }
+}
+
+void leave_out_grip(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
+                    const Light& handle_colour, StonePixels& pixels) {
+  if (pixels.count() == 0) return;
+  const Outline outline(stone, eye, pixels);
+  const Eigen::Array3f colour = handle_colour.cast<float>().array();
+  for (Eigen::Index i = 0; i < pixels.count(); ++i) {
+    if (!(pixels.usable[i] > 0.0F) || !outline.on_far_rim(i) || outline.inside_px(i) > reach_px) continue;
+    const Rim rim = outline.rim(i);
+    const float far_px = grip_px(pixels.sights, i, eye.z());
+    if (grip_over(source, rim.at, rim.outward, far_px, colour, pixels.behind.row(i).transpose())) {
+      pixels.usable[i] = 0.0F;
+    }
   }
 }
 

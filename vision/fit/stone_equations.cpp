@@ -20,16 +20,19 @@ struct StoneModel::Equations {
   ModelMatrix normal = ModelMatrix::Zero();
   ModelVector right = ModelVector::Zero();
 
-  void add(const Slopes& slopes, const Basis& basis, const Pixels& residuals, const Pixels& weights);
+  /// The first `numbers` slopes without number `none`, which is zero.
+  void add(const Slopes& slopes, int numbers, int none, const Basis& basis, const Pixels& residuals,
+           const Pixels& weights);
 };
 
 // The colours of this part are eliminated at once: they are its own.
-void StoneModel::Equations::add(const Slopes& slopes, const Basis& basis, const Pixels& residuals,
-                                const Pixels& weights) {
-  Eigen::Matrix<double, 3, model_numbers> shared;
+void StoneModel::Equations::add(const Slopes& slopes, int numbers, int none, const Basis& basis,
+                                const Pixels& residuals, const Pixels& weights) {
+  Eigen::Matrix<double, 3, model_numbers> shared = Eigen::Matrix<double, 3, model_numbers>::Zero();
   Eigen::Matrix3d colours = 1e-6 * Eigen::Matrix3d::Identity();
   Eigen::Vector3d colours_right;
-  for (int i = 0; i < model_numbers; ++i) {
+  for (int i = 0; i < numbers; ++i) {
+    if (i == none) continue;
     const Pixels weighed = weights * slopes.col(i);
     right[i] += static_cast<double>((weighed * residuals).sum());
     for (int j = 0; j <= i; ++j) normal(i, j) += static_cast<double>((weighed * slopes.col(j)).sum());
@@ -45,7 +48,7 @@ void StoneModel::Equations::add(const Slopes& slopes, const Basis& basis, const 
   right -= shared.transpose() * solver.solve(colours_right);
 }
 
-void StoneModel::linearise(const SharedLook& look) {
+void StoneModel::linearise(const SharedLook& look, bool with_shared) {
   find_colours(look);
   residuals_.resize(seen_.count(), 3);
   for (int part = 0; part < 3; ++part) find_residual(part);
@@ -59,9 +62,10 @@ void StoneModel::linearise(const SharedLook& look) {
 
   Equations sums;
   for (int part = 0; part < 3; ++part) {
-    find_slopes(part, look);
+    find_slopes(part, look, with_shared);
     const Pixels weights = (part == 0 ? 1.0F : colour_weight) * weight_;
-    sums.add(slopes_, blurred(part).basis(shade_), residuals_.col(part), weights);
+    sums.add(slopes_, with_shared ? model_numbers : 2, part == 0 ? 8 : 7, blurred(part).basis(shade_),
+             residuals_.col(part), weights);
   }
   normal_ = sums.normal.selfadjointView<Eigen::Lower>();
   right_ = sums.right;
@@ -77,7 +81,7 @@ void StoneModel::find_residual(int part) {
   residuals_.col(part) = light_.col(part) - (b.plate * colour[0] + (1.0F - b.handle) * under);
 }
 
-void StoneModel::find_slopes(int part, const SharedLook& look) {
+void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared) {
   const Blurred& b = blurred(part);
   const Eigen::Vector3f colour = colours_.col(part).cast<float>();
   const auto wall = static_cast<float>(look.wall_light);
@@ -89,6 +93,7 @@ void StoneModel::find_slopes(int part, const SharedLook& look) {
   slopes_.resize(seen_.count(), model_numbers);
   slopes_.col(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
   slopes_.col(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
+  if (!with_shared) return;
   slopes_.col(2) = -handle * handle_.part * handle_.by_height;
   slopes_.col(3) = body * body_.by_radius;
   slopes_.col(4) = body * body_.by_half_height;

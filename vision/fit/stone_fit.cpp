@@ -87,6 +87,7 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
   look_ = {};
   look_.shape = picture.shape;
   prior_ = numbers_of(look_);
+  if (options.begin_with) look_ = *options.begin_with;
   stones_.clear();
   for (const StoneStart& start : starts) {
     stones_.emplace_back(picture, look_, start.place, options.pixels);
@@ -101,10 +102,11 @@ Light StoneFitter::first_granite() const { return stones_.empty() ? Light::Zero(
 const StoneFitResult& StoneFitter::run() {
   for (int i = 0; i < options_.iterations; ++i) {
     if (i % 2 == 0) settle_surroundings();
-    for (StoneModel& s : stones_) s.linearise(look_);
-    step(i >= 1 && options_.fit_shape);
+    const bool with_shared = i >= 1 && options_.fit_shape;
+    for (StoneModel& s : stones_) s.linearise(look_, with_shared);
+    step(with_shared);
   }
-  for (StoneModel& s : stones_) s.linearise(look_);
+  for (StoneModel& s : stones_) s.linearise(look_, options_.covariance);
   result_.look = look_;
   result_.stones.clear();
   const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();

@@ -40,8 +40,10 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 4;
   bool fit_shape = true;
-  int pixels = 300;                      ///< about so many of each stone
-  std::vector<NearerStone> nearer = {};  ///< stones known already, which may hide parts of these
+  bool covariance = true;                     ///< else that of what the shape leaves open is left out
+  int pixels = 300;                           ///< about so many of each stone
+  std::vector<NearerStone> nearer = {};       ///< stones known already, which may hide parts of these
+  std::optional<SharedLook> begin_with = {};  ///< what the last picture showed of it; empty: the rig's shape
 };
 
 /// Where a stone may stand, and the club's granite where it is known: of what is half hidden it can not be learnt.

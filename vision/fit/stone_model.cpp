@@ -57,8 +57,17 @@ StonePlace StoneModel::stands(const SharedLook& look) const {
 }
 
 void StoneModel::look_behind(const SharedLook& look) {
-  vision::look_behind(source_, stands(look), eye_, coloured_ ? handle_colour() : Light::Zero(), seen_);
-  behind_ = in_parts(seen_.behind);
+  const StonePlace stone = stands(look);
+  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
+  const SharedVector numbers = numbers_of(look);
+  if (!looked_behind_ || !same(looked_at_, place_) || !same(looked_with_, numbers)) {
+    vision::look_behind(source_, stone, eye_, seen_);
+    behind_ = in_parts(seen_.behind);
+    looked_behind_ = true;
+    looked_at_ = place_;
+    looked_with_ = numbers;
+  }
+  if (coloured_) leave_out_grip(source_, stone, eye_, handle_colour(), seen_);
   grip_.setZero(seen_.count());
 }
 

@@ -43,8 +43,9 @@ class StoneModel {
 
   /// The colours that explain the pixels best where the stone now is: linear least squares.
   void find_colours(const SharedLook& look);
-  /// Normal equations of place and shared numbers with the colours eliminated; weighs the pixels by their residuals.
-  void linearise(const SharedLook& look);
+  /// Normal equations of place and shared numbers, or of the place alone (the others' are zero), with the colours
+  /// eliminated; weighs the pixels by their residuals.
+  void linearise(const SharedLook& look, bool with_shared);
 
   bool enough() const;                           ///< enough of it is seen to place it
   double visible() const;                        ///< share of its outline's pixels in use
@@ -87,7 +88,7 @@ class StoneModel {
   void mix(const SharedLook& look);
   void add_part(int part, const SharedLook& look, const Pixels& weights, Equations& sums);
   void find_residual(int part);
-  void find_slopes(int part, const SharedLook& look);
+  void find_slopes(int part, const SharedLook& look, bool with_shared);
   void weigh(const Pixels& noise, const Pixels& sizes);
   void find_scale(const Pixels& sizes);
   void summarise(const Pixels& sizes, const Pixels& noise);
@@ -112,6 +113,9 @@ class StoneModel {
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
   bool coloured_ = false;
+  bool looked_behind_ = false;  ///< from there, with the shape of these numbers
+  Eigen::Vector2d looked_at_ = Eigen::Vector2d::Zero();
+  SharedVector looked_with_ = SharedVector::Zero();
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;

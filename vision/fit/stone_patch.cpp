@@ -4,68 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/fit/sight_table.hpp"
+
 namespace hogline::vision {
 namespace {
 
 constexpr double margin_px = 3.0;
 constexpr float band_px = 3.5F;  // about an outline: blur, and what the fit may move
-
-/// Lines of sight of a rectangle, by second-order interpolation between nine.
-class SightTable {
- public:
-  SightTable(const SheetCamera& camera, const cv::Rect& area)
-      : area_(area),
-        by_column_(2.0F / static_cast<float>(area.width - 1)),
-        by_row_(2.0F / static_cast<float>(area.height - 1)) {
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector2d pixel(area.x + 0.5 * i * (area.width - 1), area.y + 0.5 * j * (area.height - 1));
-        const auto ray = camera.lens().ray(pixel);
-        const Eigen::Vector3d d = ray ? Eigen::Vector3d(camera.eMc().linear() * *ray) : Eigen::Vector3d::Zero();
-        ok_ = ok_ && d.z() < -1e-3;
-        if (ok_) knots_[static_cast<std::size_t>(3 * j + i)] = (d.head<2>() / -d.z()).cast<float>();
-      }
-    }
-  }
-
-  bool ok() const { return ok_; }
-
-  void find(int x, int y, Eigen::Index at, SightLines& sights) const {
-    const float u = static_cast<float>(x - area_.x) * by_column_;
-    const float v = static_cast<float>(y - area_.y) * by_row_;
-    const std::array<float, 3> wu = weights(u);
-    const std::array<float, 3> wv = weights(v);
-    const std::array<float, 3> su{(u - 1.5F) * by_column_, (2.0F - 2.0F * u) * by_column_, (u - 0.5F) * by_column_};
-    const std::array<float, 3> sv{(v - 1.5F) * by_row_, (2.0F - 2.0F * v) * by_row_, (v - 0.5F) * by_row_};
-    Eigen::Vector2f slope = Eigen::Vector2f::Zero();
-    Eigen::Vector2f by_column = Eigen::Vector2f::Zero();
-    Eigen::Vector2f by_row = Eigen::Vector2f::Zero();
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Eigen::Vector2f row = wu[0] * knots_[3 * j] + wu[1] * knots_[3 * j + 1] + wu[2] * knots_[3 * j + 2];
-      const Eigen::Vector2f turn = su[0] * knots_[3 * j] + su[1] * knots_[3 * j + 1] + su[2] * knots_[3 * j + 2];
-      slope += wv[j] * row;
-      by_column += wv[j] * turn;
-      by_row += sv[j] * row;
-    }
-    sights.x[at] = slope.x();
-    sights.y[at] = slope.y();
-    sights.x_by_column[at] = by_column.x();
-    sights.y_by_column[at] = by_column.y();
-    sights.x_by_row[at] = by_row.x();
-    sights.y_by_row[at] = by_row.y();
-  }
-
- private:
-  static std::array<float, 3> weights(float t) {
-    return {0.5F * (t - 1.0F) * (t - 2.0F), t * (2.0F - t), 0.5F * t * (t - 1.0F)};
-  }
-
-  cv::Rect area_;
-  float by_column_;
-  float by_row_;
-  bool ok_ = true;
-  std::array<Eigen::Vector2f, 9> knots_;
-};
 
 cv::Rect bounds_of(const SheetCamera& camera, const StonePlace& stone) {
   const Eigen::Vector3d eye = camera.eMc().translation();
@@ -101,10 +46,10 @@ class Sieve {
     resize(kept_, most_pixels);
   }
 
-  void add(int x, int y, const SightTable& sights) {
+  void add(int x, int y, const SightTable::Row& sights) {
     columns_[static_cast<std::size_t>(waiting_)] = x;
     rows_[static_cast<std::size_t>(waiting_)] = y;
-    sights.find(x, y, waiting_, tried_);
+    sights.find(x, waiting_, tried_);
     if (++waiting_ == most_pixels) settle();
   }
 
@@ -203,7 +148,8 @@ bool sift(const SheetCamera& camera, const StonePlace& stone, const cv::Rect& ar
     const SightTable sights(camera, area);
     for (int y = area.y; y < area.br().y && sights.ok(); ++y) {
       const int first = area.x + (keep - (area.x + 3 * y) % keep) % keep;
-      for (int x = first; x < area.br().x; x += keep) sieve.add(x, y, sights);
+      const SightTable::Row row = sights.row(y);
+      for (int x = first; x < area.br().x; x += keep) sieve.add(x, y, row);
     }
   }
   return sieve.finish();

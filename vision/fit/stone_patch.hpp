@@ -49,8 +49,10 @@ void gather_stone_pixels(const PatchSource& source, const SheetCamera& camera, c
                          StonePixels& pixels);
 
 /// Looks outward past the stone's outline for what is behind it. Pixels for which that can not be told are marked.
-/// `handle_colour` is zero while it is not known.
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
-                 const Light& handle_colour, StonePixels& pixels);
+void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& pixels);
+
+/// Marks pixels of the far rim over which something of the handle's colour is seen: its grip. What is behind is known.
+void leave_out_grip(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
+                    const Light& handle_colour, StonePixels& pixels);
 
 }  // namespace hogline::vision

@@ -24,13 +24,6 @@ struct FarCorrection {
   double roll_sigma_rad = 0.0;
 };
 
-/// Where a stone is thought to be when the picture is taken: a tracker's prediction.
-struct FarExpectation {
-  double x_m = 0.0;  ///< centre, in e
-  double y_m = 0.0;
-  PlaceCovariance covariance;
-};
-
 /// `ok == false` means that nothing can be said of any stone, with the reason (the picture does not tell where the
 /// camera looks, or is no picture of this camera); an empty sheet is ok.
 struct FarPercept {

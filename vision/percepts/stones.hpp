@@ -28,10 +28,19 @@ struct StoneSighting {
   Team team = Team::unknown;
   double team_confidence = 0.0;      ///< 0: could be anyone's, 1: no doubt; of `team`, or that it is unknown
   std::array<float, 3> colour{};     ///< of the handle against white ice: red, green, blue; about 0..1
-  std::optional<double> handle_rad;  ///< the grip's direction from e's y axis; empty: not measured
+  std::optional<double> handle_rad;  ///< the grip's direction from e's y axis, counter-clockwise, modulo half a turn;
+                                     ///< empty: not measured
+  double handle_sigma_rad = 0.0;     ///< of it
   double support = 0.0;              ///< share of the outline that could be seen and was found, 0..1
   double visible = 1.0;              ///< share of handle and body that no nearer stone hides, 0..1
   double residual = 0.0;             ///< RMS of what the model leaves, share of the contrast between stone and ice
+};
+
+/// Where a stone is thought to be when the picture is taken: a tracker's prediction.
+struct StoneExpectation {
+  double x_m = 0.0;  ///< centre, in e
+  double y_m = 0.0;
+  PlaceCovariance covariance;
 };
 
 /// The stones in view. `ok == false` means that nothing can be said, with the reason; an empty sheet is ok.

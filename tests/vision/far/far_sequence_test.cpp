@@ -138,7 +138,7 @@ TEST(FarSequence, AnExpectedStoneIsFoundAtOnce) {
     ASSERT_TRUE(seen.ok) << seen.reason;
     EXPECT_EQ(seen_near(seen, run.stone(k)), nullptr);
   }
-  FarExpectation expected{run.stone(6).x(), run.stone(6).y() + 0.1, {0.001, 0.0, 0.02}};
+  StoneExpectation expected{run.stone(6).x(), run.stone(6).y() + 0.1, {0.001, 0.0, 0.02}};
   const FarPercept seen = sequence.look(run.picture(6), RunningStone::stamp(6), run.plan(), {expected});
   ASSERT_TRUE(seen.ok) << seen.reason;
   const StoneSighting* s = seen_near(seen, run.stone(6));
