@@ -10,10 +10,32 @@
 
 namespace hogline::cli {
 
+namespace {
+
+void add_robots(CLI::App* app, TeamOptions& options) {
+  app->add_option("--rig", options.rig, "the thrower's rig file (YAML); without it the practice rig");
+  app->add_option("--skip-rig", options.skip_rig, "the skip's rig file (YAML); without it the practice skip");
+  app->add_option("--scenario", options.scenario,
+                  "scenario file (YAML) with a skip section; without it the practice rink");
+  app->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  app->add_option("--seer", options.seer, "who looks: vision at rendered pictures (slow), or an oracle with its errors")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"oracle", "rendered"}));
+  app->add_option("--skip-hz", options.skip_hz,
+                  "rate of the skip's cameras; 0: 20 by the oracle, 6 in rendered pictures")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 120.0));
+}
+
+}  // namespace
+
 void add_game(CLI::App& app, Chosen& chosen) {
   const auto kept = std::make_shared<GameOptions>();
   GameOptions& options = *kept;
-  auto* game = app.add_subcommand("game", "whole ends between two strategists, on an outcome model of throws");
+  auto* game =
+      app.add_subcommand("game", "whole ends between two strategists, thrown by both robots on the simulated rink");
   game->add_option("--ends", options.ends, "how many, without extra ones")
       ->capture_default_str()
       ->check(CLI::Range(1, 20));
@@ -32,15 +54,16 @@ void add_game(CLI::App& app, Chosen& chosen) {
   game->add_option("--connect", options.connect_s, "how long clients are waited for, s")
       ->capture_default_str()
       ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"));
-  game->add_option("--seed", options.seed, "of the ice and of the throws, a whole number from 0")
-      ->capture_default_str()
-      ->check(whole_number);
-  game->add_option("--out", options.out, "folder for game.jsonl and game.dcl2")->capture_default_str();
+  add_robots(game, options.team);
+  game->add_flag("--outcome-model", options.outcome_model,
+                 "no robots: FCV1 with an ice of its own and a thrower's errors, thousands of times faster");
+  game->add_option("--out", options.out, "folder for game.jsonl, game.dcl2 and throws.csv")->capture_default_str();
   game->footer(
       "Examples:\n"
-      "  hogline game --ends 4 --seed 7\n"
-      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001\n"
-      "No robot moves: FCV1 with an ice of its own, a thrower's errors, collisions, and an ice model that learns.\n"
+      "  hogline game --ends 2 --seed 7\n"
+      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001 --outcome-model\n"
+      "Each stone is thrown by the thrower and followed by the skip, and the ice model learns; what the skip saw is\n"
+      "the next board. throws.csv and summary.md say how that agrees with the simulator's truth.\n"
       "A dc:PORT waits for a Digital Curling 3 client; doc/strategy.md says what happens to one that misbehaves.\n"
       "Exit status: 0 played to its end, 1 stopped before, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");

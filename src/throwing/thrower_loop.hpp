@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "servo/safety/supervisor.hpp"
@@ -21,15 +20,14 @@ class ThrowerLoop {
   /// The operator's act, before the first step: without it nothing moves. Returns why it was refused; the first step
   /// then aborts the throw for that reason.
   std::optional<std::string> arm(Stamp now);
-  /// What else forbids to go on: another robot is silent, or has called a stop. It counts as a device's error, from the
-  /// next step on.
-  void set_outside_error(std::optional<hw::DeviceError> error) { outside_error_ = std::move(error); }
   /// `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
   /// A release that the last step ordered for a moment before the next one. Whoever steps the loop calls let_go() then;
   /// a step that comes first does it as well as it still can.
   std::optional<Stamp> release_due() const { return release_due_; }
   void let_go(Stamp now);
+  /// Somebody else of the team wants the robot to stop: for good, with the stone held if it still is.
+  void stop(const std::string& reason);
 
   const servo::Thrower& thrower() const { return thrower_; }
   const servo::Supervisor& supervisor() const { return supervisor_; }
@@ -52,8 +50,8 @@ class ThrowerLoop {
   servo::Supervisor supervisor_;
   servo::ThrowerCommand command_;  ///< as permitted
   std::string refusal_ = "not armed";
+  std::optional<std::string> stopped_by_team_;
   std::vector<hw::DeviceError> device_errors_;
-  std::optional<hw::DeviceError> outside_error_;
   void apply_jaws(const servo::GripperCommand& command, Stamp now);
 
   bool releasing_ = false;
