@@ -45,7 +45,9 @@ class Commander {
     while (const auto received = end_.receive(now)) hear(received->message);
     watch_peer(now);
     if (finished_) return options_.stay;
-    if (!ordered_at_ && state_ && state_->armed && there_ && end_.local(state_->origin.stamp, now)) order(now);
+    if (!ordered_at_ && state_ && state_->armed && there_ && link_.matched_readers(0) > 0 &&
+        end_.local(state_->origin.stamp, now))
+      order(now);
     const Stamp end = ordered_at_ ? *ordered_at_ + throw_limit : start_ + from_seconds(options_.wait_s);
     if (now > end) finish(ordered_at_ ? "the thrower does not come to an end" : "the thrower was not armed in time");
     const bool taken = state_ && state_->order_serial == serial_;

@@ -63,6 +63,7 @@ class ThrowerMember {
   bool release_told_ = false;
   bool loading_ = false;
   std::uint64_t order_serial_ = 0;
+  std::uint64_t commander_session_ = 0;
   std::string refused_;  ///< why the last order was
   std::string emergency_;
   hw::ThrowerStateMessage told_;

@@ -176,7 +176,7 @@ Result carry_out(TeamScene& scene, const Kill& kill) {
     member(scene, kill.whom).signal(SIGCONT);
   }
   judge(scene, r, at);
-  r.said = words_since(scene, kill, at);
+  wait_until([&] { return !(r.said = words_since(scene, kill, at)).empty(); }, 5s);
 
   // Whoever was killed comes back while the operator still holds the switch: nothing may move by itself.
   member(scene, kill.whom).start();
@@ -200,6 +200,13 @@ std::string row(int number, const Result& r) {
                      r.problem.empty() ? r.said : "**" + r.problem + "** " + r.said);
 }
 
+// For whoever wants to know why.
+void tell_all(TeamScene& scene, Stamp since) {
+  for (Member* m : {&scene.rink(), &scene.thrower(), &scene.skip(), &scene.hand()})
+    for (const Told& t : m->told())
+      if (t.at >= since) fmt::print(stderr, "  {:8.3f} {} {}: {}\n", seconds(t.at - since), m->name(), t.event, t.what);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -215,8 +222,10 @@ int main(int count, char** arguments) {
       "| | what | at | speed m/s | stood after s | way m | stone gone before | what the survivors say |\n"
       "|--:|---|---|--:|--:|--:|---|---|\n");
   for (int i = 0; i < trials; ++i) {
+    const Stamp begin = now();
     const Result r = carry_out(scene, draw(random, i));
     fmt::print("{}\n", row(i + 1, r));
+    if (!r.problem.empty()) tell_all(scene, begin);
     std::fflush(stdout);
     problems += r.problem.empty() ? 0 : 1;
     moving += r.moved ? 1 : 0;

@@ -199,10 +199,19 @@ bool TeamScene::set_up() {
   if (!wait_until([this] { return rink_.running() && !truth().empty() && now() - truth_.back().at < 1s; }, 30s))
     return false;
   thrower_.start();
+  const auto thrower_waits = [this] {
+    std::string last;
+    for (const Told& t : thrower_.told())
+      if (t.event == "ready" || t.event == "disarmed" || t.event == "arming" || t.event == "armed" ||
+          t.event == "throwing") {
+        last = t.event;
+      }
+    return last == "ready" || last == "disarmed";
+  };
+  if (!wait_until(thrower_waits, 30s)) return false;
   const Stamp asked = now();
   rink_.say("again");
-  if (!wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s)) return false;
-  return wait_until([this] { return !thrower_.told().empty(); }, 30s);
+  return wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s);
 }
 
 }  // namespace hogline::live_test
