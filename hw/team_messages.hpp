@@ -33,7 +33,7 @@ struct ShotOrderMessage {
   std::uint64_t thrower_session = 0;  ///< as the thrower's state messages give it
   std::uint32_t shot = 0;             ///< of the end, 1..16
   double speed_mps = 0.0;             ///< of the stone at its release
-  double heading_rad = 0.0;           ///< in the thrower's e, counter-clockwise positive
+  double heading_rad = 0.0;           ///< in the thrower's e, counter-clockwise positive, of a line through the hack
   double spin_radps = 0.0;            ///< counter-clockwise from above positive
   bool operator==(const ShotOrderMessage&) const = default;
 };

@@ -23,8 +23,12 @@ double ShotLine::lateral_m(double at_x_m, double at_y_m) const {
   return -std::cos(heading_rad) * (at_x_m - x_m) - std::sin(heading_rad) * (at_y_m - y_m);
 }
 
-LateralFilter::LateralFilter(const ShotLine& line, const OdometryConfig& config, double sigma_m)
-    : line_(line), config_(config), variance_m2_(sigma_m * sigma_m) {}
+double ShotLine::x_at_m(double at_y_m, double lateral) const {
+  return x_m - (lateral + std::sin(heading_rad) * (at_y_m - y_m)) / std::cos(heading_rad);
+}
+
+LateralFilter::LateralFilter(const ShotLine& line, const OdometryConfig& config, double lateral_m, double sigma_m)
+    : line_(line), config_(config), lateral_m_(lateral_m), variance_m2_(sigma_m * sigma_m) {}
 
 void LateralFilter::advance(double speed_mps, double heading_rad, double heading_sigma_rad, double dt_s) {
   const double travelled_m = std::abs(speed_mps) * dt_s;

@@ -14,22 +14,26 @@ struct ShotLine {
 
   /// Distance of a place from the line, left positive.
   double lateral_m(double at_x_m, double at_y_m) const;
+  /// x of the place that is off the line by that much, at this y.
+  double x_at_m(double at_y_m, double lateral_m) const;
 };
 
 /// Lateral offset from the line: carried by speed and heading, corrected by sheet poses.
 class LateralFilter {
  public:
-  LateralFilter(const ShotLine& line, const OdometryConfig& config, double sigma_m);
+  /// `lateral_m`: at the start.
+  LateralFilter(const ShotLine& line, const OdometryConfig& config, double lateral_m, double sigma_m);
   void advance(double speed_mps, double heading_rad, double heading_sigma_rad, double dt_s);
   /// Precondition: pose.ok, finite, sigmas > 0. False: gated.
   bool correct(const SheetPosePercept& pose);
   double lateral_m() const { return lateral_m_; }
+  const ShotLine& line() const { return line_; }
   double variance_m2() const { return variance_m2_; }
 
  private:
   ShotLine line_;
   OdometryConfig config_;
-  double lateral_m_ = 0.0;
+  double lateral_m_;
   double variance_m2_;
 };
 

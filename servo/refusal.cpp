@@ -125,6 +125,10 @@ std::optional<std::string> refusal(const ThrowerConfig& config, const ShotOrder&
   }
   if (!(std::abs(order.heading_rad) < std::numbers::pi / 4.0)) return "the ordered heading is not down the sheet";
   if (!(std::isfinite(order.spin_radps) && order.spin_radps >= 0.0)) return "the ordered spin is not a magnitude";
+  constexpr double most_aside_m = 1.0;
+  if (order.release_x_m && !(std::abs(*order.release_x_m) <= most_aside_m)) {
+    return "the ordered place of the release is not near the centre line";
+  }
   return std::nullopt;
 }
 

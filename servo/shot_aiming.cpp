@@ -48,6 +48,14 @@ struct Course {
   double first_speed_mps;
 };
 
+/// Of what depends on the start, by speed and heading: the velocity, and the place on the line where it is let go.
+Eigen::Matrix2d by_speed_and_heading(const ByStart& by_start, const Release& r, const ThrowerSkill& skill) {
+  Eigen::Matrix2d by = by_start.middleCols<2>(2) * velocity_by_release(r);
+  const double c = std::cos(r.heading_rad);
+  if (skill.line_through_hack) by.col(1) -= skill.release.y_m / (c * c) * by_start.col(0);
+  return by;
+}
+
 /// Newton's method on speed and heading; steps are kept within what a release can be. `lack_of` says nothing of a way
 /// that stops before its end: that step is halved.
 template <class LackOf>
@@ -56,14 +64,15 @@ std::optional<Release> solve(const Course& course, Curl curl, const ThrowerSkill
   Release r{course.first_speed_mps, std::atan2(skill.release.x_m - course.to.x_m, course.to.y_m - skill.release.y_m)};
   Release reached = r;
   for (int i = 0; i < most_iterations; ++i) {
-    const std::optional<Lack> lack = lack_of(released(order_of(r, curl, skill), skill.release), ice);
+    const Place from = release_place(skill, r.heading_rad);
+    const std::optional<Lack> lack = lack_of(released(order_of(r, curl, skill), from), ice);
     if (!lack) {
       r = {0.5 * (r.speed_mps + reached.speed_mps), 0.5 * (r.heading_rad + reached.heading_rad)};
       continue;
     }
     if (lack->close) return r;
     reached = r;
-    const Eigen::Matrix2d by_release = lack->by_start.middleCols<2>(2) * velocity_by_release(r);
+    const Eigen::Matrix2d by_release = by_speed_and_heading(lack->by_start, r, skill);
     const Eigen::Vector2d step = by_release.inverse() * lack->miss;
     if (!step.allFinite()) return std::nullopt;
     r.speed_mps = std::clamp(r.speed_mps + std::clamp(step[0], -0.3, 0.3), 0.1, 6.0);
@@ -189,7 +198,7 @@ typename Kind::Aim aim_with(Curl curl, const Kind& kind, const ThrowerSkill& ski
   if (release->speed_mps > skill.max_speed_mps) return refused<Aim>("the thrower is not fast enough");
   Aim aim;
   aim.order = order_of(*release, curl, skill);
-  const StonePath path(released(aim.order, skill.release), factors);
+  const StonePath path(released(aim.order, release_place(skill, aim.order.heading_rad)), factors);
   const double until_s = kind.outcome(path, *release, skill, ice, aim);
   aim.clearance_m = clearance(path, until_s, kind.wish.stones);
   aim.ok = aim.clearance_m > 0.0;
@@ -222,6 +231,11 @@ std::string impossible(const Place& wish, const ThrowerSkill& skill) {
 }
 
 }  // namespace
+
+Place release_place(const ThrowerSkill& skill, double heading_rad) {
+  const double aside_m = skill.line_through_hack ? std::tan(heading_rad) * skill.release.y_m : 0.0;
+  return {skill.release.x_m - aside_m, skill.release.y_m};
+}
 
 SlidingStone released(const ShotOrder& order, const Place& release) {
   const double spin = order.curl == Curl::counter_clockwise ? order.spin_radps : -order.spin_radps;

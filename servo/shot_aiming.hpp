@@ -20,7 +20,13 @@ struct ThrowerSkill {
   double spin_radps = 0.0;  ///< magnitude at release
   double speed_sigma_mps = 0.0;
   double heading_sigma_rad = 0.0;
+  /// Every shot's line runs through the middle of the hack, s's origin, and the stone is let go on it at release.y;
+  /// else at `release`, whatever its heading.
+  bool line_through_hack = false;
 };
+
+/// Where the stone of a shot with this heading is let go.
+Place release_place(const ThrowerSkill& skill, double heading_rad);
 
 struct ShotWish {
   Place rest;                   ///< where the stone shall stop

@@ -85,7 +85,8 @@ void aim_to_pass(MappedShot& mapped, const HackShot& shot, const Surroundings& a
 
 /// The order once more, with all stones in its way: it must come to the same.
 void check(MappedShot& mapped, const Surroundings& around, const ThrowerSkill& skill, const IceModel& ice) {
-  const StonePath path(released(mapped.order, skill.release), ice.estimate().factors());
+  const Place from = release_place(skill, mapped.order.heading_rad);
+  const StonePath path(released(mapped.order, from), ice.estimate().factors());
   mapped.expected = outcome_of(path, around);
   const IntendedOutcome &is = mapped.expected, &should = mapped.intended;
   mapped.off_m = std::hypot(is.place.x_m - should.place.x_m, is.place.y_m - should.place.y_m);

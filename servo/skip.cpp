@@ -33,6 +33,7 @@ Skip::Skip(Skip&&) noexcept = default;
 Skip& Skip::operator=(Skip&&) noexcept = default;
 
 SkipCommand Skip::step(const SkipObservation& observation, Duration dt) { return impl_->step(observation, dt); }
+void Skip::expect(double spin_radps) { impl_->config.expected_spin_radps = spin_radps; }
 void Skip::conclude(Stamp now) {
   if (finished()) return;
   if (!impl_->watch || !impl_->watch->at(now).thrown()) {

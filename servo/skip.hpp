@@ -97,6 +97,9 @@ class Skip {
   /// One control period. `observation.now` must not go back.
   SkipCommand step(const SkipObservation& observation, Duration dt);
 
+  /// The spin that was ordered, where it was not known at the start: before the stone is let go.
+  void expect(double spin_radps);
+
   /// Nothing more will come: reports what was seen up to now. No effect once finished.
   void conclude(Stamp now);
 

@@ -23,6 +23,16 @@ struct StateEntry {
   Stamp since{};
 };
 
+/// The stone at the moment it was free, as the controller believes. In e.
+struct FreedStone {
+  Stamp stamp{};
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double speed_mps = 0.0;
+  double heading_rad = 0.0;
+  double spin_radps = 0.0;  ///< counter-clockwise positive
+};
+
 /// What the controller believes, for drawings and logs. Truth is elsewhere.
 struct ThrowerDiagnosis {
   double yaw_rad = 0.0;  ///< fused heading in e
@@ -40,6 +50,7 @@ struct ThrowerDiagnosis {
   std::optional<double> believed_delay_s;    ///< with which the release was timed
   std::optional<double> measured_delay_s;    ///< from the order to the stone being free, by the jaws' own report
   std::optional<double> freed_at_speed_mps;  ///< the body's, as believed when the stone was free
+  std::optional<FreedStone> freed;
 };
 
 /// One throw, from a robot that stands and holds a stone to a robot that stands. Pure: no clock, no thread, no device.

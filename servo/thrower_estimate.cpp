@@ -38,9 +38,14 @@ void ThrowerEstimate::start_heading(Stamp now, const StandingPlace& place) {
   heading_.start(now, place.body.yaw_rad, place.sigma.yaw_rad);
 }
 
-void ThrowerEstimate::start_line(Stamp now, const StandingPlace& place, double heading_rad) {
-  const ShotLine line{place.body.x_m, place.body.y_m, heading_rad};
-  lateral_.emplace(line, config_.odometry, place.sigma.x_m);
+void ThrowerEstimate::start_line(Stamp now, const StandingPlace& place, const ShotOrder& order) {
+  ShotLine line{place.body.x_m, place.body.y_m, order.heading_rad};
+  if (order.release_x_m) {
+    line.x_m = *order.release_x_m;
+    line.y_m += place.hog_distance_m - config_.release.hog_distance_m + config_.release.stone_x_m;
+  }
+  const double lateral_m = line.lateral_m(place.body.x_m, place.body.y_m);
+  lateral_.emplace(line, config_.odometry, lateral_m, place.sigma.x_m);
   hog_distance_.emplace(config_.odometry, now, place.hog_distance_m, place.hog_distance_sigma_m);
 }
 

@@ -9,6 +9,7 @@
 #include "servo/line_tracking.hpp"
 #include "servo/observation.hpp"
 #include "servo/place_average.hpp"
+#include "servo/shot.hpp"
 #include "servo/thrower_config.hpp"
 #include "servo/unicycle.hpp"
 
@@ -30,8 +31,8 @@ class ThrowerEstimate {
 
   /// The heading is known from here on.
   void start_heading(Stamp now, const StandingPlace& place);
-  /// The line is laid through the place, and the run's filters start from it. `now`: the body still stands there.
-  void start_line(Stamp now, const StandingPlace& place, double heading_rad);
+  /// The order's line is laid, and the run's filters start from the place. `now`: the body still stands there.
+  void start_line(Stamp now, const StandingPlace& place, const ShotOrder& order);
 
   HeadingEstimate heading(Stamp now) const { return heading_.at(now); }
   const PlanarTwist& odometry() const { return odometry_; }

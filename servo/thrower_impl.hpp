@@ -59,6 +59,7 @@ struct Thrower::Impl {
   void advance_profile(const ThrowerObservation& observation, Duration dt);
   std::optional<std::string> out_of_sight(Stamp now, double hog_distance_m);
   bool stone_is_free(const ThrowerObservation& observation);
+  FreedStone freed_stone(Stamp at, const ThrowerObservation& observation) const;
 
   ThrowerConfig config;
   ShotOrder order;

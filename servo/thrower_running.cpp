@@ -9,6 +9,7 @@
 namespace hogline::servo {
 namespace {
 
+constexpr double tee_to_hog_m = 6.401;  // to the house-side edge (World Curling)
 constexpr double resting_mps = 0.01;
 constexpr double resting_radps = 0.02;
 constexpr auto resting_time = std::chrono::milliseconds(200);
@@ -116,6 +117,8 @@ ThrowerCommand Thrower::Impl::release(const ThrowerObservation& o, Duration dt) 
   command.drive = drive(run_speed_mps(), o.now, 0.0, dt);
   if (!stone_is_free(o)) return command;
   released = true;
+  const bool told = o.gripper->freed_at && *o.gripper->freed_at >= release_at;
+  diagnosis.freed = freed_stone(told ? *o.gripper->freed_at : o.now, o);
   enter(ThrowerState::brake, o.now);
   return command;
 }
@@ -133,6 +136,20 @@ bool Thrower::Impl::stone_is_free(const ThrowerObservation& o) {
   const double unsure_s = std::hypot(config.release.gripper_delay_sigma_s, config.release.gripper_jitter_s);
   const double longest_s = config.release.gripper_delay_s + delay_sigmas * unsure_s;
   return o.gripper->open && o.now - ordered >= from_seconds(longest_s);
+}
+
+FreedStone Thrower::Impl::freed_stone(Stamp at, const ThrowerObservation& o) const {
+  const HogDistanceEstimate hog = estimate.hog_distance().at(at);
+  const double heading_rad = estimate.heading(at).yaw_rad;
+  const LateralFilter& lateral = estimate.lateral();
+  const double body_y_m = tee_to_hog_m - hog.hog_distance_m;
+  const double body_x_m = lateral.line().x_at_m(body_y_m, lateral.lateral_m());
+  return {.stamp = at,
+          .x_m = body_x_m - config.release.stone_x_m * std::sin(heading_rad),
+          .y_m = body_y_m + config.release.stone_x_m * std::cos(heading_rad),
+          .speed_mps = hog.speed_mps / std::cos(heading_rad) - config.release.drag_mps,
+          .heading_rad = heading_rad,
+          .spin_radps = o.gripper->spin_radps};
 }
 
 ThrowerCommand Thrower::Impl::brake(const ThrowerObservation& o, Duration dt) {

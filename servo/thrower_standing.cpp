@@ -109,7 +109,7 @@ SheetPosePercept Thrower::Impl::near_view(const ThrowerObservation& o) const {
 void Thrower::Impl::begin_line(Stamp now, const StandingPlace& here) {
   abort.set(run_does_not_fit(here.hog_distance_m));
   diagnosis.yaw_after_alignment_rad = estimate.heading(now).yaw_rad;
-  estimate.start_line(now, here, order.heading_rad);
+  estimate.start_line(now, here, order);
   enter(ThrowerState::fold, now);
 }
 

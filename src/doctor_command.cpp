@@ -40,6 +40,10 @@ std::vector<doctor::Finding> examine_simulated(const std::string& file, const co
 }
 
 std::vector<doctor::Finding> examine_steel(const config::DeviceRig& rig) {
+  if (rig.rig.can_udp) {
+    throw config::ConfigError(rig.rig.file, 0, "can.udp_multicast", rig.rig.can_udp->group,
+                              "is for simulations; the doctor examines the kernel's CAN interface (can.interface)");
+  }
   if ((rig.drive || rig.head) && rig.rig.can_interface.empty()) {
     throw config::ConfigError(rig.rig.file, 0, "can.interface", "",
                               "missing; the doctor needs the CAN interface's name, e.g. can0 (or --simulated)");

@@ -17,7 +17,8 @@ MAY_INCLUDE = {
     "src": ["src", "servo", "hw", "vision"],
 }
 # Adapters know the ports and themselves, not each other; simulated devices know no adapter.
-ADAPTERS = ["socketcan", "canopen", "modbus", "dsp3000", "aravis", "digital_curling", "files", "link", "sim"]
+ADAPTERS = ["socketcan", "canopen", "modbus", "dsp3000", "aravis", "digital_curling", "files", "link", "sim",
+            "shared_frames", "udp_can", "local_switch"]
 
 # The supervisor knows no controller: only what both sides exchange.
 SUPERVISOR_MAY_INCLUDE = ["servo/safety", "servo/command.hpp", "servo/observation.hpp", "servo/thrower_config.hpp",

@@ -36,6 +36,8 @@ ModbusServer& ModbusDevices::server() {
   return *server_;
 }
 
+void ModbusDevices::serve_tcp(int port) { server_ = std::make_unique<ModbusServer>(station_, mutex_, port); }
+
 void ModbusDevices::stop() {
   stopped_ = true;
   if (server_) server_->stop();

@@ -20,6 +20,8 @@ class ModbusDevices {
 
   /// Serves TCP on the loopback interface, in a thread of its own, from the first call on. The server's port.
   int port() { return server().port(); }
+  /// The same at a port of the caller's choice. Precondition: nothing has been served yet. Throws std::system_error.
+  void serve_tcp(int port);
   /// The same devices over RTU on a pseudo terminal: the path of the end that a client opens. After a restart() the
   /// path is another one.
   std::string serve_rtu() { return server().serve_rtu(); }

@@ -63,8 +63,8 @@ struct ModbusServer::Impl {
   void close_all();
 };
 
-ModbusServer::ModbusServer(ModbusStation& station, std::mutex& devices)
-    : devices_(devices), impl_(std::make_unique<Impl>(station)) {
+ModbusServer::ModbusServer(ModbusStation& station, std::mutex& devices, int port)
+    : devices_(devices), impl_(std::make_unique<Impl>(station)), port_(port) {
   start();
 }
 

@@ -13,9 +13,9 @@ namespace hogline::hw::sim {
 
 class ModbusServer {
  public:
-  /// Listens on 127.0.0.1 at a free port. Throws std::system_error when that is not possible. The station is used under
-  /// the mutex; both must outlive the server.
-  ModbusServer(ModbusStation& station, std::mutex& devices);
+  /// Listens on 127.0.0.1, at a free port where 0 is asked for. Throws std::system_error when that is not possible. The
+  /// station is used under the mutex; both must outlive the server.
+  ModbusServer(ModbusStation& station, std::mutex& devices, int port = 0);
   ~ModbusServer();
   ModbusServer(const ModbusServer&) = delete;
   ModbusServer& operator=(const ModbusServer&) = delete;

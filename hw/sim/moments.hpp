@@ -33,6 +33,8 @@ class Moments {
     while (samples_.size() > 2 && samples_.front().stamp < sample.stamp - kept_) samples_.pop_front();
   }
 
+  void clear() { samples_.clear(); }
+
   /// `share`: 0 at `before`, 1 at `after`; `span_s`: between the two, 0 where they are one and the same.
   struct Between {
     const Sample& before;

@@ -65,6 +65,13 @@ void Rink::step(Duration span) {
   for (const Stamp end = now() + span; now() < end;) substep(std::min(substep_span, Duration(end - now())));
 }
 
+// What was seen before it was carried is another place: no exposure reaches back over it.
+void Rink::put_back(const PlanarPose& body, int team, double handle_rad) {
+  world_.put_back(body, team, handle_rad);
+  history_.clear();
+  history_.add(truth());
+}
+
 void Rink::substep(Duration span) {
   bus_.deliver();
 

@@ -39,6 +39,10 @@ class Rink {
   /// Advances by one control period. Precondition: span > 0.
   void step(Duration span);
 
+  /// See World: for a rink that is the thrower's end of a sheet with more on it.
+  void stones_are(const SheetStones& sheet) { world_.stones_are(sheet); }
+  void put_back(const PlanarPose& body, int team, double handle_rad);
+
   /// Lets released stones come to rest while everything else, and the clock, stands still. For throws whose robot is
   /// done.
   void settle() { world_.settle(); }

@@ -49,11 +49,9 @@ CameraWorld world_of(const Rink& rink, const Scenario& scenario, bool on_the_arm
   world.things = [&rink, radius_m = scenario.stone.radius_m, people = scenario.people, seed = scenario.seed](
                      Stamp stamp, Exposure& exposure) {
     const auto place = rink.history().at(stamp);
-    exposure.stones.push_back(look_of(place.stone, radius_m, 0));
-    bool red = false;  // the teams throw by turns
-    for (const auto& other : place.others) {
-      exposure.stones.push_back(look_of(other, radius_m, red ? 0 : 1));
-      red = !red;
+    exposure.stones.push_back(look_of(place.stone, radius_m, place.stone_team));
+    for (std::size_t i = 0; i < place.others.size(); ++i) {
+      exposure.stones.push_back(look_of(place.others[i], radius_m, place.other_teams[i]));
     }
     exposure.people = people_at(people, seed, stamp);
   };

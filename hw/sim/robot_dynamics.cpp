@@ -22,6 +22,13 @@ RobotDynamics::RobotDynamics(const RobotScenario& scenario, std::uint64_t seed)
   wander_ = unit_normal_(random_);
 }
 
+void RobotDynamics::put(const PlanarPose& pose) {
+  pose_ = pose;
+  forward_mps_ = wheel_yaw_radps_ = acceleration_mps2_ = 0.0;
+  pitch_rad_ = pitch_rate_radps_ = left_radps_ = right_radps_ = 0.0;
+  slipping_ = false;
+}
+
 BodyTwist RobotDynamics::twist() const {
   const double share = scenario_.yaw_disturbance_reference_mps > 0.0
                            ? std::abs(forward_mps_) / scenario_.yaw_disturbance_reference_mps

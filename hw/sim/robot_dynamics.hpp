@@ -26,6 +26,9 @@ class RobotDynamics {
   /// Moves the robot by dt_s, a step of the order of a millisecond, carrying `load_kg` at `load_x_m` ahead of b.
   void step(const AxisSpeeds& axes, double load_kg, double load_x_m, double dt_s);
 
+  /// Somebody sets it down there, at rest. What is wrong with it stays wrong.
+  void put(const PlanarPose& pose);
+
   const PlanarPose& pose() const { return pose_; }  ///< e to b
   BodyTwist twist() const;
   double acceleration_mps2() const { return acceleration_mps2_; }

@@ -56,6 +56,23 @@ void SkipRink::step(Duration span) {
   for (const Stamp end = now() + span; now() < end;) substep(std::min(substep_span, Duration(end - now())));
 }
 
+void SkipRink::deliver(const FieldStone& stone, Stamp released) {
+  thrown_ = static_cast<std::size_t>(field_.add(stone));
+  released_ = released;
+}
+
+void SkipRink::take_all_off() {
+  thrown_.reset();
+  released_.reset();
+  field_.take_all_off();
+}
+
+void SkipRink::begin_throw(std::uint64_t seed) {
+  thrown_.reset();
+  released_.reset();
+  field_.begin_throw(seed);
+}
+
 void SkipRink::substep(Duration span) {
   bus_.deliver();
   clock_.advance(span);

@@ -49,10 +49,18 @@ class SkipRink {
   /// Advances by one control period. Precondition: span > 0.
   void step(Duration span);
 
+  /// A stone that a thrower let go at `released`, where it is now.
+  void deliver(const FieldStone& stone, Stamp released);
+  /// Nothing is thrown any more: what was thrown before is one of those that stand. Another throw's friction by `seed`.
+  void begin_throw(std::uint64_t seed);
+
   const Clock& clock() const { return clock_; }
   Stamp now() const { return clock_.now(); }
   Stamp start() const { return start_; }
   const StoneField& field() const { return field_; }
+  StoneField& field() { return field_; }  ///< for a person's hand, but for:
+  /// Every stone is taken off the ice. Their numbers begin anew.
+  void take_all_off();
   const SkipHistory& history() const { return history_; }
   HeadTruth head() const { return {pan_.angle_rad(), tilt_.angle_rad(), pan_.rate_radps(), tilt_.rate_radps()}; }
   /// The least way of either axis to the end of its mechanics so far.

@@ -23,9 +23,31 @@ double speed(const StoneTruth& s) { return std::hypot(s.vx_mps, s.vy_mps); }
 
 StoneField::StoneField(const StoneScenario& scenario, double sheet_width_m, std::vector<FieldStone> standing,
                        std::uint64_t seed, Stamp start)
-    : scenario_(scenario), sheet_width_m_(sheet_width_m), stones_(std::move(standing)), now_(start) {
+    : scenario_(scenario),
+      friction_scale_(scenario.friction_scale),
+      sheet_width_m_(sheet_width_m),
+      stones_(std::move(standing)),
+      now_(start) {
+  begin_throw(seed);
+}
+
+void StoneField::begin_throw(std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  scenario_.friction_scale *= 1.0 + scenario.throw_friction_sigma * std::normal_distribution<double>()(random);
+  const double scatter = scenario_.throw_friction_sigma * std::normal_distribution<double>()(random);
+  scenario_.friction_scale = friction_scale_ * (1.0 + scatter);
+  contacts_.clear();
+}
+
+void StoneField::take_off(std::size_t number) {
+  FieldStone& stone = stones_.at(number);
+  stone.taken_off = true;
+  stone.motion.vx_mps = stone.motion.vy_mps = stone.motion.spin_radps = 0.0;
+}
+
+void StoneField::put(std::size_t number, double x_m, double y_m) {
+  FieldStone& stone = stones_.at(number);
+  stone.taken_off = false;
+  stone.motion = {.x_m = x_m, .y_m = y_m, .handle_rad = stone.motion.handle_rad};
 }
 
 int StoneField::add(const FieldStone& stone) {

@@ -30,6 +30,12 @@ class StoneField {
 
   /// Puts one more stone on the ice, running or not. Returns its number.
   int add(const FieldStone& stone);
+  /// A person's hand: takes a stone off the sheet, or puts one down at rest.
+  void take_off(std::size_t number);
+  void put(std::size_t number, double x_m, double y_m);
+  void take_all_off() { stones_.clear(), contacts_.clear(); }
+  /// Another throw begins: its own friction, and no contacts yet.
+  void begin_throw(std::uint64_t seed);
   /// Precondition: `until` is not before now().
   void step(Stamp until);
 
@@ -46,6 +52,7 @@ class StoneField {
   void catch_those_out();
 
   StoneScenario scenario_;
+  double friction_scale_;  ///< of the session
   double sheet_width_m_;
   std::vector<FieldStone> stones_;
   std::vector<StoneContact> contacts_;

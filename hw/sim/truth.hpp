@@ -48,8 +48,10 @@ struct Truth {
   double right_wheel_radps = 0.0;
   bool slipping = false;  ///< a wheel turns faster or slower than it rolls
   StoneTruth stone;
+  int stone_team = 0;  ///< 0 or 1: the rig's first or second
   bool held = false;
   std::vector<StoneTruth> others;  ///< stones that lay on the sheet
+  std::vector<int> other_teams;    ///< theirs, in the same order
   int hits = 0;                    ///< collisions of stones so far
   std::optional<ReleaseRecord> release;
   std::optional<Stamp> set_down;  ///< when a robot that stands let the stone go, and has not gripped it again since

@@ -20,7 +20,10 @@ World::World(const Scenario& scenario, Stamp start)
     : stone_(scenario.stone), robot_(scenario.robot, scenario.seed * 4 + 1) {
   std::mt19937_64 random(scenario.seed * 4 + 2);
   stone_.friction_scale *= 1.0 + stone_.throw_friction_sigma * std::normal_distribution<double>()(random);
-  for (const auto& [x_m, y_m] : stone_.others) truth_.others.push_back({.x_m = x_m, .y_m = y_m});
+  for (const auto& [x_m, y_m] : stone_.others) {
+    truth_.other_teams.push_back(truth_.others.size() % 2 == 0 ? 1 : 0);  // the teams throw by turns
+    truth_.others.push_back({.x_m = x_m, .y_m = y_m});
+  }
   truth_.stamp = start;
   truth_.held = scenario.gripper.holds_stone_at_start;
   truth_.arm_unfolded = scenario.arm.unfolded_at_start ? 1.0 : 0.0;
@@ -57,7 +60,7 @@ void World::substep(const WorldInputs& inputs, Duration span) {
     carry(inputs.belt_radps);
     truth_.stone.handle_rad += truth_.stone.spin_radps * dt_s;
   } else {
-    slide_stones(dt_s);
+    if (!slides_elsewhere_) slide_stones(dt_s);
     detect_touch();
   }
 }
@@ -119,6 +122,26 @@ void World::settle() {
   if (truth_.held) return;
   const auto any_moves = [&] { return moves(truth_.stone) || std::ranges::any_of(truth_.others, moves); };
   while (any_moves()) slide_stones(seconds(longest_step));
+}
+
+void World::stones_are(const SheetStones& sheet) {
+  truth_.others = sheet.others;
+  truth_.other_teams = sheet.other_teams;
+  slides_elsewhere_ = truth_.release && sheet.thrown;
+  if (slides_elsewhere_) truth_.stone = *sheet.thrown;
+}
+
+void World::put_back(const PlanarPose& body, int team, double handle_rad) {
+  robot_.put(body);
+  truth_.body = body;
+  truth_.twist = {};
+  truth_.release.reset();
+  truth_.burned.reset();
+  slides_elsewhere_ = false;
+  truth_.stone.handle_rad = handle_rad;
+  truth_.stone_team = team;
+  carry(0.0);
+  if (!truth_.held) truth_.set_down = truth_.stamp;
 }
 
 World::Offset World::from_jaws() const {

@@ -16,6 +16,13 @@ struct WorldInputs {
   double arm_unfolded = 0.0;
 };
 
+/// The stones of a sheet that is moved elsewhere (TeamRink), in e.
+struct SheetStones {
+  std::optional<StoneTruth> thrown;  ///< the one that was let go last, from when the sheet has it
+  std::vector<StoneTruth> others;
+  std::vector<int> other_teams;
+};
+
 /// Steps of at most a millisecond; the step in which the stone becomes free is cut at that moment. Touching the stone
 /// afterwards is recorded; the push itself is not simulated.
 class World {
@@ -27,6 +34,13 @@ class World {
   const Truth& truth() const { return truth_; }
   /// A stone stands, at rest against the body, where it was held: closing jaws grip it.
   bool stone_between_jaws() const;
+
+  /// From now on what has been let go slides elsewhere: this is where it is, and where all other stones are. A stone
+  /// that was let go within the last step goes on here until the sheet has it.
+  void stones_are(const SheetStones& sheet);
+  /// A person sets the robot down at this pose and a stone of this team before it, between its jaws where they are
+  /// open; jaws that still hold a stone keep it. Precondition: the robot stands.
+  void put_back(const PlanarPose& body, int team, double handle_rad);
 
   /// Lets every stone that slides come to rest, in no time: nothing else moves, no time passes.
   void settle();
@@ -47,6 +61,7 @@ class World {
   StoneScenario stone_;
   RobotDynamics robot_;
   Truth truth_;
+  bool slides_elsewhere_ = false;  ///< the released stone
 };
 
 }  // namespace hogline::hw::sim

@@ -19,6 +19,11 @@ void WorldHistory::add(const Truth& truth) {
   samples_.add(truth);
 }
 
+void WorldHistory::clear() {
+  const std::lock_guard lock(mutex_);
+  samples_.clear();
+}
+
 WorldHistory::Place WorldHistory::at(Stamp stamp) const {
   const std::lock_guard lock(mutex_);
   const auto [a, b, share, span_s] = samples_.at(stamp);
@@ -27,8 +32,10 @@ WorldHistory::Place WorldHistory::at(Stamp stamp) const {
           .pitch_rad = sim::mix(a.pitch_rad, b.pitch_rad, share),
           .pitch_rate_radps = span_s > 0.0 ? (b.pitch_rad - a.pitch_rad) / span_s : 0.0,
           .stone = sim::mix(a.stone, b.stone, share),
+          .stone_team = b.stone_team,
           .held = b.held,
           .others = b.others,
+          .other_teams = b.other_teams,
           .arm_unfolded = sim::mix(a.arm_unfolded, b.arm_unfolded, share)};
 }
 

@@ -13,6 +13,7 @@ class WorldHistory {
   explicit WorldHistory(Duration kept) : samples_(kept) {}
 
   void add(const Truth& truth);
+  void clear();
 
   struct Place {
     PlanarPose body;
@@ -20,8 +21,10 @@ class WorldHistory {
     double pitch_rad = 0.0;
     double pitch_rate_radps = 0.0;
     StoneTruth stone;
+    int stone_team = 0;
     bool held = false;
     std::vector<StoneTruth> others;
+    std::vector<int> other_teams;
     double arm_unfolded = 0.0;
   };
   /// Precondition: at least one sample. A stamp outside what is kept gives the nearest sample.

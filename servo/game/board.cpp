@@ -46,4 +46,19 @@ EndScore score(const Board& board) {
   return points;
 }
 
+double score_margin_m(const Board& board) {
+  constexpr double reach_m = in_sheet::house_radius_m + in_sheet::stone_radius_m;
+  std::array<double, team_count> nearest{1e9, 1e9};
+  for (const std::size_t side : {0u, 1u})
+    for (const auto& stone : board.stones[side])
+      if (stone) nearest[side] = std::min(nearest[side], from_tee_m(*stone));
+  const std::size_t winner = nearest[0] <= nearest[1] ? 0 : 1;
+  // The winner's stones count up to the house's edge or to the other team's first.
+  const double limit_m = std::min(reach_m, nearest[1 - winner]);
+  double margin_m = 1e9;
+  for (const auto& stone : board.stones[winner])
+    if (stone) margin_m = std::min(margin_m, std::abs(from_tee_m(*stone) - limit_m));
+  return margin_m;
+}
+
 }  // namespace hogline::servo

@@ -61,5 +61,8 @@ using EndScore = std::array<int, team_count>;
 /// A team scores each stone in the house that is nearer to the tee than every one of the other team's. Two nearest
 /// stones of the two teams that are equally near: nobody scores.
 EndScore score(const Board& board);
+/// By how much stones would have to lie nearer to the tee, or farther, for the score to be another one; large where no
+/// stone is near a border.
+double score_margin_m(const Board& board);
 
 }  // namespace hogline::servo

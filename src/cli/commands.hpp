@@ -14,6 +14,7 @@ void add_stones(CLI::App& app, Chosen& chosen);
 void add_board(CLI::App& app, Chosen& chosen);
 void add_throw(CLI::App& app, Chosen& chosen);
 void add_demo(CLI::App& app, Chosen& chosen);
+void add_turn(CLI::App& app, Chosen& chosen);
 void add_doctor(CLI::App& app, Chosen& chosen);
 void add_game(CLI::App& app, Chosen& chosen);
 void add_faults(CLI::App& app, Chosen& chosen);
@@ -24,5 +25,9 @@ void add_track(CLI::App& app, Chosen& chosen);
 void add_skips(CLI::App& app, Chosen& chosen);
 void add_keys(CLI::App& app, Chosen& chosen);
 void add_link(CLI::App& app, Chosen& chosen);
+void add_rink(CLI::App& app, Chosen& chosen);
+void add_thrower(CLI::App& app, Chosen& chosen);
+void add_order(CLI::App& app, Chosen& chosen);
+void add_hold(CLI::App& app, Chosen& chosen);
 
 }  // namespace hogline::cli

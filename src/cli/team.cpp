@@ -7,13 +7,82 @@
 #include "src/game_command.hpp"
 #include "src/keys_command.hpp"
 #include "src/link_command.hpp"
+#include "src/turn_command.hpp"
 
 namespace hogline::cli {
+
+namespace {
+
+void add_robots(CLI::App* app, TeamOptions& options) {
+  app->add_option("--rig", options.rig, "the thrower's rig file (YAML); without it the practice rig");
+  app->add_option("--skip-rig", options.skip_rig, "the skip's rig file (YAML); without it the practice skip");
+  app->add_option("--scenario", options.scenario,
+                  "scenario file (YAML) with a skip section; without it the practice rink");
+  app->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
+      ->capture_default_str()
+      ->check(whole_number);
+  app->add_option("--seer", options.seer, "who looks: vision at rendered pictures (slow), or an oracle with its errors")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"oracle", "rendered"}));
+  app->add_option("--skip-hz", options.skip_hz,
+                  "rate of the skip's cameras; 0: 20 by the oracle, 6 in rendered pictures")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 120.0));
+}
+
+void add_turn_options(CLI::App* app, TurnOptions& options) {
+  add_robots(app, options.team);
+  app->add_option("--stones", options.stones, "so many of the end's stones lie in the house or before it")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 15));
+  app->add_option("--out", options.out, "folder for pictures and turn.json")->capture_default_str();
+}
+
+}  // namespace
+
+void add_turn(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<TurnOptions>();
+  TurnOptions& options = *kept;
+  auto* turn =
+      app.add_subcommand("turn", "one turn of both robots on the simulated rink: look, decide, throw, follow, count");
+  add_turn_options(turn, options);
+  turn->add_option("--strategist", options.strategist, "who decides: built-in, or dc:PORT")
+      ->capture_default_str()
+      ->check(known_strategist);
+  turn->add_option("--address", options.address, "where a Digital Curling client may connect: an IPv4 address of ours")
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
+  turn->footer(
+      "Examples:\n"
+      "  hogline turn --seed 3 --stones 6\n"
+      "  hogline turn --seer rendered --out out/turn\n"
+      "Stones lie where the seed puts them. doc/strategy.md says what happens in a turn.\n"
+      "Exit status: 0 thrown and followed to its end, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk, a port).");
+  turn->callback([kept, &chosen] { chosen = [kept] { return run_turn(*kept); }; });
+}
+
+void add_demo(CLI::App& app, Chosen& chosen) {
+  const auto kept = std::make_shared<TurnOptions>();
+  TurnOptions& options = *kept;
+  options.team.seer = "rendered";
+  options.team.seed = 3;  // a take-out
+  options.out = "out/demo";
+  auto* demo = app.add_subcommand("demo", "one turn of both robots in rendered pictures, with a report");
+  add_turn_options(demo, options);
+  demo->footer(
+      "Example:\n"
+      "  hogline demo --out out/demo\n"
+      "Exit status: 0 thrown and followed to its end, 1 it was not, 2 wrong use or configuration,\n"
+      "3 something outside failed (a disk).");
+  demo->callback([kept, &chosen] { chosen = [kept] { return run_demo(*kept); }; });
+}
 
 void add_game(CLI::App& app, Chosen& chosen) {
   const auto kept = std::make_shared<GameOptions>();
   GameOptions& options = *kept;
-  auto* game = app.add_subcommand("game", "whole ends between two strategists, on an outcome model of throws");
+  auto* game =
+      app.add_subcommand("game", "whole ends between two strategists, thrown by both robots on the simulated rink");
   game->add_option("--ends", options.ends, "how many, without extra ones")
       ->capture_default_str()
       ->check(CLI::Range(1, 20));
@@ -32,15 +101,16 @@ void add_game(CLI::App& app, Chosen& chosen) {
   game->add_option("--connect", options.connect_s, "how long clients are waited for, s")
       ->capture_default_str()
       ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"));
-  game->add_option("--seed", options.seed, "of the ice and of the throws, a whole number from 0")
-      ->capture_default_str()
-      ->check(whole_number);
-  game->add_option("--out", options.out, "folder for game.jsonl and game.dcl2")->capture_default_str();
+  add_robots(game, options.team);
+  game->add_flag("--outcome-model", options.outcome_model,
+                 "no robots: FCV1 with an ice of its own and a thrower's errors, thousands of times faster");
+  game->add_option("--out", options.out, "folder for game.jsonl, game.dcl2 and throws.csv")->capture_default_str();
   game->footer(
       "Examples:\n"
-      "  hogline game --ends 4 --seed 7\n"
-      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001\n"
-      "No robot moves: FCV1 with an ice of its own, a thrower's errors, collisions, and an ice model that learns.\n"
+      "  hogline game --ends 2 --seed 7\n"
+      "  hogline game --ends 8 --team0 dc:10000 --team1 dc:10001 --outcome-model\n"
+      "Each stone is thrown by the thrower and followed by the skip, and the ice model learns; what the skip saw is\n"
+      "the next board. throws.csv and summary.md say how that agrees with the simulator's truth.\n"
       "A dc:PORT waits for a Digital Curling 3 client; doc/strategy.md says what happens to one that misbehaves.\n"
       "Exit status: 0 played to its end, 1 stopped before, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");

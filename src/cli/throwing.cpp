@@ -5,7 +5,6 @@
 #include "src/campaign_command.hpp"
 #include "src/cli/commands.hpp"
 #include "src/cli/number_checks.hpp"
-#include "src/demo_command.hpp"
 #include "src/faults_command.hpp"
 #include "src/sights_command.hpp"
 #include "src/throw_command.hpp"
@@ -91,20 +90,6 @@ void add_throw(CLI::App& app, Chosen& chosen) {
       "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   command->callback([kept, &chosen] { chosen = [kept] { return run_throw(*kept); }; });
-}
-
-void add_demo(CLI::App& app, Chosen& chosen) {
-  const auto kept = std::make_shared<ThrowOptions>();
-  ThrowOptions& options = *kept;
-  options.out = "out/demo";
-  auto* demo = app.add_subcommand("demo", "one whole throw on the simulated rink, with pictures and a report");
-  add_shot(demo, options);
-  demo->footer(
-      "Example:\n"
-      "  hogline demo --out out/demo\n"
-      "Exit status: 0 the stone was let go in its window, 1 it was not, 2 wrong use or configuration,\n"
-      "3 something outside failed (a disk).");
-  demo->callback([kept, &chosen] { chosen = [kept] { return run_demo(*kept); }; });
 }
 
 void add_campaign(CLI::App& app, Chosen& chosen) {

@@ -55,8 +55,8 @@ CameraSource read_camera_source(const std::string& name, const json& camera, con
   const Section whole(camera);
   const Section s = whole.section("source");
   int kinds = 0;
-  for (const char* kind : {"simulated", "aravis", "folder", "video"}) kinds += s.has(kind) ? 1 : 0;
-  if (kinds != 1) refuse(key, "must hold exactly one of simulated, aravis, folder, video");
+  for (const char* kind : {"simulated", "shared_memory", "aravis", "folder", "video"}) kinds += s.has(kind) ? 1 : 0;
+  if (kinds != 1) refuse(key, "must hold exactly one of simulated, shared_memory, aravis, folder, video");
 
   CameraSource source;
   source.max_age = s.duration("max_age_s");
@@ -74,6 +74,8 @@ CameraSource read_camera_source(const std::string& name, const json& camera, con
     const bool steady = f.stamps.empty() && !f.path.empty() && f.rate_hz > 0.0;
     if (!listed && !steady) refuse(key + ".folder", "must hold path and rate_hz, or stamps alone");
     source.device = f;
+  } else if (s.has("shared_memory")) {
+    source.device = SharedMemorySource{s.word("shared_memory")};
   } else if (s.has("video")) {
     const Section v = s.section("video");
     source.device = VideoSource{v.word("path"), v.has("rate_hz") ? v.number("rate_hz") : 0.0};

@@ -25,9 +25,14 @@ struct VideoSource {
   double rate_hz = 0.0;  ///< 0: the file's own
 };
 
+/// Pictures that another program of this machine writes into shared memory.
+struct SharedMemorySource {
+  std::string segment;
+};
+
 /// The limits of a section that is left out are those of the practice rig.
 struct CameraSource {
-  std::variant<SimulatedSource, hw::AravisConfig, FolderSource, VideoSource> device;
+  std::variant<SimulatedSource, hw::AravisConfig, FolderSource, VideoSource, SharedMemorySource> device;
   Duration max_age = std::chrono::milliseconds(100);        ///< of a frame when it is given
   Duration silence_limit = std::chrono::milliseconds(150);  ///< the longest time without a frame
 };

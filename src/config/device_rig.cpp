@@ -40,6 +40,7 @@ DeviceRig read_devices(const Rig& rig, const Section& root, const Document& docu
     devices.gyro = GyroSection{read_gyro_device(root.section("gyro")), read_gyro_port(root.section("gyro"))};
   }
   if (root.has("link")) devices.link = read_link(root.section("link"), document);
+  if (root.has("operator")) devices.operator_socket = root.section("operator").word("socket");
   return devices;
 }
 

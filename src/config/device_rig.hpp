@@ -30,6 +30,7 @@ struct DeviceRig {
   std::optional<hw::AxisConfig> arm;               ///< with modbus
   std::optional<GyroSection> gyro;
   std::optional<hw::link::LinkConfig> link;
+  std::string operator_socket{};  ///< empty if the rig names none
 };
 
 /// Reads and checks whatever devices a rig file declares. Throws ConfigError.

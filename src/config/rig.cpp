@@ -125,6 +125,29 @@ StoneHandle read_stone(const json& section, const Document& document) {
 
 }  // namespace
 
+namespace {
+
+std::optional<hw::UdpCanConfig> read_can_udp(const json& rig, const Document& document) {
+  if (!rig.contains("can")) return std::nullopt;
+  const json& can = rig.at("can");
+  if (can.contains("interface") == can.contains("udp_multicast")) {
+    throw ConfigError(document.file, document.line_of("can"), "can", "",
+                      "must hold exactly one of interface, udp_multicast");
+  }
+  if (!can.contains("udp_multicast")) return std::nullopt;
+  const Section s(can.at("udp_multicast"));
+  hw::UdpCanConfig udp{.group = s.word("group"),
+                       .port = static_cast<std::uint16_t>(s.integer("port")),
+                       .interface = s.word("interface")};
+  if (const auto problem = config_error(udp)) {
+    const char* key = "can.udp_multicast";
+    throw ConfigError(document.file, document.line_of(key), key, "", *problem);
+  }
+  return udp;
+}
+
+}  // namespace
+
 Rig load_rig(const std::string& path) { return parse_rig(read_file(path), path); }
 
 Rig parse_rig(std::string_view text, const std::string& name) {
@@ -140,7 +163,8 @@ Rig parse_rig(std::string_view text, const std::string& name) {
           .low_camera = read_camera(rig, "low", document),
           .far_camera = read_camera(rig, "far", document),
           .sources = std::move(sources),
-          .can_interface = rig.contains("can") ? rig.at("can").at("interface").get<std::string>() : std::string(),
+          .can_interface = rig.contains("can") ? rig.at("can").value("interface", std::string()) : std::string(),
+          .can_udp = read_can_udp(rig, document),
           .stone = read_stone(rig.at("stone"), document)};
 }
 

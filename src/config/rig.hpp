@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "hw/udp_can/udp_can_config.hpp"
 #include "src/config/camera_source.hpp"
 #include "vision/camera_setup.hpp"
 
@@ -32,7 +33,8 @@ struct Rig {
   std::optional<vision::CameraSetup> low_camera;
   std::optional<vision::CameraSetup> far_camera;
   std::map<std::string, CameraSource, std::less<>> sources;  ///< by the camera's key; those that have one
-  std::string can_interface;                                 ///< empty if the rig names none
+  std::string can_interface;                                 ///< of the kernel; empty if the rig names none
+  std::optional<hw::UdpCanConfig> can_udp;                   ///< the bus between programs, in its place
   StoneHandle stone;
 
   /// One of the cameras by its key: near, low or far. Throws ConfigError where the rig has none of that name.

@@ -198,7 +198,8 @@ DeviceRig devices_of(const ThrowerRig& rig) {
           .gripper = rig.gripper,
           .arm = rig.arm,
           .gyro = GyroSection{.device = rig.gyro, .port = rig.gyro_port},
-          .link = {}};
+          .link = rig.link,
+          .operator_socket = rig.operator_socket};
 }
 
 ThrowerRig load_thrower_rig(const std::string& path) { return parse_thrower_rig(read_file(path), path); }
@@ -221,6 +222,8 @@ ThrowerRig parse_thrower_rig(std::string_view text, const std::string& name) {
   rig.arm = devices.arm.value();
   rig.gyro = devices.gyro.value().device;
   rig.gyro_port = devices.gyro.value().port;
+  rig.link = devices.link;
+  rig.operator_socket = devices.operator_socket;
   rig.looks = {.near = s.section("looks").duration("near_s"),
                .low = s.section("looks").duration("low_s"),
                .tracked = s.section("looks").duration("tracked_s")};

@@ -30,6 +30,8 @@ struct ThrowerRig {
   hw::Dsp3000Config gyro;
   hw::SerialPortConfig gyro_port;
   LookTimes looks;
+  std::optional<hw::link::LinkConfig> link;  ///< a thrower that takes orders has one
+  std::string operator_socket{};             ///< ... and somebody who holds the switch; empty if the rig names none
 };
 
 /// Its devices alone.

@@ -1,5 +1,6 @@
 #include "src/game/game_journal.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -8,6 +9,9 @@ namespace hogline::game {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr double most_margin_m = 100.0;  // nothing lies near enough to count
+constexpr double decided_sigmas = 2.0;
 using namespace servo;
 using hw::digital_curling::team_name;
 
@@ -107,7 +111,12 @@ void GameJournal::thrown(const Turn& turn, const ThrowReport& report, const Judg
   event["free_guard_zone_foul"] = judged.free_guard_zone_foul;
   event["removed"] = removed_json(judged.removed);
   event["board"] = board_json(judged.board);
-  if (judged.end) event["end_score"] = *judged.end;
+  if (judged.end) {
+    const double margin_m = score_margin_m(judged.board);
+    event["end_score"] = *judged.end;
+    event["margin_m"] = margin_m > most_margin_m ? ordered_json(nullptr) : ordered_json(margin_m);
+    event["measure"] = report.seen_sigma_m > 0.0 && margin_m < decided_sigmas * std::sqrt(2.0) * report.seen_sigma_m;
+  }
   line_(event.dump());
 }
 

@@ -9,8 +9,13 @@ using servo::side_of;
 
 Referee::Referee(const servo::GameSetting& setting, const std::array<hw::Strategist*, servo::team_count>& strategists,
                  StoneThrower& thrower, GameListener& listener)
+    : Referee(setting, servo::new_game(setting), strategists, thrower, listener) {}
+
+Referee::Referee(const servo::GameSetting& setting, const servo::GameState& state,
+                 const std::array<hw::Strategist*, servo::team_count>& strategists, StoneThrower& thrower,
+                 GameListener& listener)
     : setting_(setting), strategists_(strategists), thrower_(thrower), listener_(listener) {
-  update_.state = servo::new_game(setting);
+  update_.state = state;
 }
 
 void Referee::step(Stamp now) {

@@ -35,6 +35,10 @@ class Referee {
   /// All must outlive the referee.
   Referee(const servo::GameSetting& setting, const std::array<hw::Strategist*, servo::team_count>& strategists,
           StoneThrower& thrower, GameListener& listener);
+  /// From there on. Precondition: a state that the setting allows, not over.
+  Referee(const servo::GameSetting& setting, const servo::GameState& state,
+          const std::array<hw::Strategist*, servo::team_count>& strategists, StoneThrower& thrower,
+          GameListener& listener);
 
   void step(Stamp now);
   RefereePhase phase() const { return phase_; }

@@ -130,7 +130,7 @@ StoneTruth SimulatedThrows::released(const ShotOrder& order) {
   ShotOrder done = order;
   done.speed_mps += skill_.speed_sigma_mps * normal(random_);
   done.heading_rad += skill_.heading_sigma_rad * normal(random_);
-  const SlidingStone stone = servo::released(done, skill_.release);
+  const SlidingStone stone = servo::released(done, release_place(skill_, order.heading_rad));
   return {stone.x_m, stone.y_m, stone.vx_mps, stone.vy_mps, stone.spin_radps, 0.0};
 }
 

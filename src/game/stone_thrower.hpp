@@ -29,6 +29,7 @@ struct ThrowReport {
   servo::ShotOrder order;                       ///< what was ordered, when thrown
   std::optional<servo::MappedShot> mapped;      ///< how the shot became the order, where it was one of Digital Curling
   servo::ThrownStones seen;                     ///< what lies where afterwards, when thrown
+  double seen_sigma_m = 0.0;                    ///< one sigma of a place in the house; 0: not said
   std::optional<servo::Trajectory> trajectory;  ///< without its `finish`, which is the rules'
 };
 

@@ -44,14 +44,21 @@ hw::sim::HeadAxisRig axis_rig(const hw::HeadAxisConfig& axis) {
   return rig;
 }
 
-hw::sim::SkipRinkConfig rink_config(const config::SkipRig& rig, const hw::sim::Scenario& scenario,
-                                    const SkipScene& scene, Duration released_after) {
+hw::sim::SkipRinkConfig rink_config(const config::SkipRig& rig, const hw::sim::Scenario& scenario) {
   return {.scenario = scenario,
           .pan = axis_rig(rig.head.pan),
           .tilt = axis_rig(rig.head.tilt),
           .bus = {.bit_rate_hz = bit_rate_hz},
-          .standing = scene.standing,
-          .delivery = hw::sim::Delivery{released_after, scene.thrown}};
+          .standing = {},
+          .delivery = {}};
+}
+
+hw::sim::SkipRinkConfig rink_config(const config::SkipRig& rig, const hw::sim::Scenario& scenario,
+                                    const SkipScene& scene, Duration released_after) {
+  hw::sim::SkipRinkConfig config = rink_config(rig, scenario);
+  config.standing = scene.standing;
+  config.delivery = hw::sim::Delivery{released_after, scene.thrown};
+  return config;
 }
 
 hw::sim::HeadAxes axes_of(const config::SkipRig& rig) {
@@ -65,18 +72,6 @@ hw::sim::CameraRig camera_rig(const vision::CameraSetup& setup) {
 hw::CameraWatch watch_of(const config::Rig& rig, const std::string& camera) {
   const config::CameraSource source = rig.source(camera);
   return {.name = camera + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
-}
-
-// An oracle does not look at pictures: they need not cost anything.
-config::SkipRig with_small_pictures(config::SkipRig rig) {
-  constexpr int divisor = 16;
-  for (auto* camera : {&*rig.rig.near_camera, &*rig.rig.far_camera}) {
-    vision::Intrinsics& lens = camera->intrinsics;
-    lens.width_px /= divisor;
-    lens.height_px /= divisor;
-    for (double* length : {&lens.fx_px, &lens.fy_px, &lens.cx_px, &lens.cy_px}) *length /= divisor;
-  }
-  return rig;
 }
 
 servo::ReleaseSignal signal_of(const hw::sim::FieldStone& stone, Stamp released, std::uint64_t seed) {
@@ -100,11 +95,29 @@ servo::IceEstimate learnt(const SkipRequest& request, const servo::ThrowResult& 
 
 }  // namespace
 
+config::SkipRig with_small_pictures(config::SkipRig rig) {
+  constexpr int divisor = 16;
+  for (auto* camera : {&*rig.rig.near_camera, &*rig.rig.far_camera}) {
+    vision::Intrinsics& lens = camera->intrinsics;
+    lens.width_px /= divisor;
+    lens.height_px /= divisor;
+    for (double* length : {&lens.fx_px, &lens.fy_px, &lens.cx_px, &lens.cy_px}) *length /= divisor;
+  }
+  return rig;
+}
+
 SimulatedSkip::SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario, const SkipScene& scene,
                              Duration released_after, int render_threads)
+    : SimulatedSkip(rig, scenario, rink_config(rig, scenario, scene, released_after), render_threads) {}
+
+SimulatedSkip::SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario, int render_threads)
+    : SimulatedSkip(rig, scenario, rink_config(rig, scenario), render_threads) {}
+
+SimulatedSkip::SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario,
+                             const hw::sim::SkipRinkConfig& rink, int render_threads)
     : scenario_(scenario),
       axes_(axes_of(rig)),
-      rink_(rink_config(rig, scenario_, scene, released_after), simulation_start),
+      rink_(rink, simulation_start),
       head_(rink_.can(), rig.head),
       near_camera_(
           hw::sim::skip_near_camera(rink_, scenario_, camera_rig(*rig.rig.near_camera), axes_, render_threads)),

@@ -24,6 +24,8 @@ class SimulatedSkip {
  public:
   SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario, const SkipScene& scene,
                 Duration released_after, int render_threads);
+  /// An empty sheet to which nothing comes but what is delivered.
+  SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario, int render_threads);
   SimulatedSkip(const SimulatedSkip&) = delete;
   SimulatedSkip& operator=(const SimulatedSkip&) = delete;
 
@@ -36,6 +38,9 @@ class SimulatedSkip {
   hw::sim::RenderedCamera& far_camera() { return far_camera_; }
 
  private:
+  SimulatedSkip(const config::SkipRig& rig, const hw::sim::Scenario& scenario, const hw::sim::SkipRinkConfig& rink,
+                int render_threads);
+
   hw::sim::Scenario scenario_;
   hw::sim::HeadAxes axes_;
   hw::sim::SkipRink rink_;
@@ -102,6 +107,9 @@ struct SkipOutcome {
 
 using SkipProgress = std::function<void(double t_s, servo::SkipState)>;
 SkipOutcome follow_throw(const SkipRequest& request, const SkipProgress& progress = {});
+
+/// The same rig with cameras of a sixteenth of the width and height: enough for what is not seen by vision.
+config::SkipRig with_small_pictures(config::SkipRig rig);
 
 /// In e of the skip, from the estimate in s, and with `spin_radps` as ordered.
 servo::SkipConfig configured(const SkipRequest& request);

@@ -25,6 +25,8 @@ class SkipLoop {
 
   /// What the thrower tells when it lets go; taken in with the next step.
   void hear(const servo::ReleaseSignal& signal) { heard_ = signal; }
+  /// The spin that was ordered; before the stone is let go.
+  void expect(double spin_radps) { skip_.expect(spin_radps); }
   /// `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
 

@@ -22,14 +22,14 @@ hw::sim::CameraRig camera_rig(const vision::CameraSetup& setup) {
 }  // namespace
 
 SkipOracle::SkipOracle(const hw::sim::SkipRink& rink, const hw::sim::Scenario& scenario, const config::SkipRig& rig,
-                       const hw::sim::HeadAxes& axes, const SkipOracleQuality& quality)
+                       const hw::sim::HeadAxes& axes, const SkipOracleQuality& quality, std::uint64_t throw_number)
     : rink_(rink),
       scenario_(scenario),
       axes_(axes),
       far_{*rig.rig.far_camera, quality.far, 0.0},
       near_{*rig.rig.near_camera, quality.near, 0.0},
       quality_(quality),
-      random_(scenario.seed * 4 + 3) {
+      random_(scenario.seed * 4 + 3 + 1000003 * throw_number) {
   far_.shared_tilt_rad = quality.far.shared_tilt_rad * normal();
   near_.shared_tilt_rad = quality.near.shared_tilt_rad * normal();
 }

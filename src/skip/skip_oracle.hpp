@@ -42,9 +42,9 @@ struct SkipOracleQuality {
 /// Stones in the picture that nobody stands before are seen where they are, with an error. Pictures are not looked at.
 class SkipOracle final : public SkipSeer {
  public:
-  /// Rink and scenario must outlive it.
+  /// Rink and scenario must outlive it. Another throw of a game has other errors.
   SkipOracle(const hw::sim::SkipRink& rink, const hw::sim::Scenario& scenario, const config::SkipRig& rig,
-             const hw::sim::HeadAxes& axes, const SkipOracleQuality& quality);
+             const hw::sim::HeadAxes& axes, const SkipOracleQuality& quality, std::uint64_t throw_number = 0);
 
   servo::NearSight near_view(const hw::Frame& frame, const servo::HeadAngles& q,
                              const servo::SkipDiagnosis& known) override;

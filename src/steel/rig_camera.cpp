@@ -5,6 +5,8 @@
 
 #include "hw/aravis/aravis_camera.hpp"
 #include "hw/files/recorded_camera.hpp"
+#include "hw/shared_frames/shared_camera.hpp"
+#include "src/config/config_error.hpp"
 
 namespace hogline {
 namespace {
@@ -49,10 +51,30 @@ std::unique_ptr<hw::Camera> open_rig_camera(const config::Rig& rig, const std::s
                    return std::make_unique<hw::AravisCamera>(a, clock);
                  },
                  [&](const config::FolderSource& f) { return folder_camera(f, device, size, clock.now()); },
+                 [&](const config::SharedMemorySource& s) -> std::unique_ptr<hw::Camera> {
+                   return std::make_unique<hw::SharedCamera>(
+                       hw::SharedCameraConfig{.name = device,
+                                              .segment = s.segment,
+                                              .width_px = static_cast<std::uint32_t>(lens.width_px),
+                                              .height_px = static_cast<std::uint32_t>(lens.height_px),
+                                              .silence_limit = rig.source(name).silence_limit});
+                 },
                  [&](const config::VideoSource& v) -> std::unique_ptr<hw::Camera> {
                    return std::make_unique<hw::files::VideoCamera>(device, v.path, v.rate_hz, size, clock.now());
                  }},
       rig.source(name).device);
+}
+
+std::unique_ptr<hw::Camera> open_real_camera(const config::Rig& rig, const std::string& name, const hw::Clock& clock) {
+  auto camera = open_rig_camera(rig, name, clock);
+  if (camera) return camera;
+  throw config::ConfigError(rig.file, 0, "cameras." + name + ".source", "simulated",
+                            "must be shared_memory, aravis, folder or video: here nobody renders pictures");
+}
+
+hw::CameraWatch watch_of(const config::Rig& rig, const std::string& name) {
+  const config::CameraSource source = rig.source(name);
+  return {.name = name + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
 }
 
 std::string describe_source(const config::CameraSource& source) {
@@ -60,6 +82,7 @@ std::string describe_source(const config::CameraSource& source) {
       Overloaded{[](const config::SimulatedSource&) { return std::string("simulated"); },
                  [](const hw::AravisConfig& a) { return "aravis " + a.serial; },
                  [](const config::FolderSource& f) { return "folder " + (f.stamps.empty() ? f.path : f.stamps); },
+                 [](const config::SharedMemorySource& s) { return "shared memory " + s.segment; },
                  [](const config::VideoSource& v) { return "video " + v.path; }},
       source.device);
 }

@@ -1,20 +1,14 @@
 #include "src/steel/steel_robot.hpp"
 
-#include "src/config/config_error.hpp"
 #include "src/steel/rig_camera.hpp"
-#include "src/steel/robot_bus.hpp"
 
 namespace hogline {
 namespace {
 
-hw::SocketCanConfig bus_config(const config::ThrowerRig& rig) {
-  if (rig.rig.can_interface.empty()) {
-    throw config::ConfigError(rig.rig.file, 0, "can.interface", "",
-                              "missing; the robot's drives are on a CAN interface of this machine, e.g. can0");
-  }
+std::vector<std::uint8_t> nodes_of(const config::ThrowerRig& rig) {
   std::vector<std::uint8_t> nodes{rig.drive.left.node, rig.drive.right.node};
   if (rig.head) nodes.insert(nodes.end(), {rig.head->pan.identity.node, rig.head->tilt.identity.node});
-  return robot_bus_config(rig.rig.can_interface, nodes, rig.drive.master_node, rig.drive.duties);
+  return nodes;
 }
 
 // An order that has waited for the line as long as a gripper's state may be old comes too late.
@@ -26,31 +20,19 @@ hw::ModbusWorkerConfig worker_config(const config::ThrowerRig& rig) {
           .order_age_limit = rig.thrower.ages.gripper};
 }
 
-std::unique_ptr<hw::Camera> real_camera(const config::Rig& rig, const std::string& name, const hw::Clock& clock) {
-  auto camera = open_rig_camera(rig, name, clock);
-  if (camera) return camera;
-  throw config::ConfigError(rig.file, 0, "cameras." + name + ".source", "simulated",
-                            "must be aravis, folder or video: on steel nobody renders pictures");
-}
-
-hw::CameraWatch watch_of(const config::Rig& rig, const std::string& name) {
-  const config::CameraSource source = rig.source(name);
-  return {.name = name + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
-}
-
 }  // namespace
 
 SteelRobot::SteelRobot(const config::ThrowerRig& rig, const hw::Clock& clock)
     : clock_(clock),
-      bus_(bus_config(rig), clock.now()),
-      hub_(bus_),
+      bus_(rig.rig, nodes_of(rig), rig.drive.master_node, rig.drive.duties, clock.now()),
+      hub_(bus_.bus()),
       wheels_(hub_.make_endpoint(), rig.drive),
       drive_(bus_, wheels_, rig.head ? &head_.emplace(hub_.make_endpoint(), *rig.head) : nullptr),
       modbus_(worker_config(rig), clock),
       gyro_port_(rig.gyro_port),
       gyro_(gyro_port_, rig.gyro),
-      near_camera_(real_camera(rig.rig, "near", clock)),
-      low_camera_(real_camera(rig.rig, "low", clock)),
+      near_camera_(open_real_camera(rig.rig, "near", clock)),
+      low_camera_(open_real_camera(rig.rig, "low", clock)),
       near_checked_(*near_camera_, watch_of(rig.rig, "near")),
       low_checked_(*low_camera_, watch_of(rig.rig, "low")) {}
 

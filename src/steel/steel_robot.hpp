@@ -12,18 +12,17 @@
 #include "hw/dsp3000/dsp3000_gyro.hpp"
 #include "hw/dsp3000/serial_port.hpp"
 #include "hw/modbus/modbus_worker.hpp"
-#include "hw/socketcan/socket_can_bus.hpp"
 #include "src/config/thrower_rig.hpp"
+#include "src/steel/robot_bus.hpp"
 #include "src/throwing/thrower_devices.hpp"
 
 namespace hogline {
 
-/// The wheels, with all that shares their bus: a step reads the kernel's interface, then the head talks, then the
+/// The wheels, with all that shares their bus: a step reads the bus, then the head talks, then the
 /// wheels, whose SYNC ends the period.
 class BusDrive final : public hw::Drive {
  public:
-  BusDrive(hw::SocketCanBus& bus, hw::TwoWheelDrive& wheels, hw::TwoAxisHead* head)
-      : bus_(bus), wheels_(wheels), head_(head) {}
+  BusDrive(RobotBus& bus, hw::TwoWheelDrive& wheels, hw::TwoAxisHead* head) : bus_(bus), wheels_(wheels), head_(head) {}
   void step(Stamp now) override {
     bus_.step(now);
     if (head_ != nullptr) head_->step(now);
@@ -36,7 +35,7 @@ class BusDrive final : public hw::Drive {
   void rearm() override { wheels_.rearm(); }
 
  private:
-  hw::SocketCanBus& bus_;
+  RobotBus& bus_;
   hw::TwoWheelDrive& wheels_;
   hw::TwoAxisHead* head_;
 };
@@ -46,7 +45,7 @@ class BusDrive final : public hw::Drive {
 /// are used by one thread.
 class SteelRobot {
  public:
-  /// Throws ConfigError where the rig names no CAN interface, or a camera's pictures are simulated. Rig and clock must
+  /// Throws ConfigError where the rig names no CAN bus, or a camera's pictures are simulated. Rig and clock must
   /// outlive the robot.
   SteelRobot(const config::ThrowerRig& rig, const hw::Clock& clock);
   SteelRobot(const SteelRobot&) = delete;
@@ -65,11 +64,12 @@ class SteelRobot {
   hw::Gyro& gyro() { return gyro_; }
   hw::Camera& near_camera() { return near_checked_; }
   hw::Camera& low_camera() { return low_checked_; }
-  const hw::SocketCanState& can_state() const { return bus_.state(); }
+  /// Of the kernel's interface; null on another bus.
+  const hw::SocketCanState* can_state() const { return bus_.kernel_state(); }
 
  private:
   const hw::Clock& clock_;
-  hw::SocketCanBus bus_;
+  RobotBus bus_;
   hw::CanHub hub_;
   hw::TwoWheelDrive wheels_;
   std::optional<hw::TwoAxisHead> head_;

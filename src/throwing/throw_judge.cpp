@@ -54,8 +54,8 @@ ReleaseOutcome ThrowJudge::judge_release(const hw::sim::ReleaseRecord& record) c
   o.heading_error_rad = vision::wrapped(record.heading_rad - order_.heading_rad);
   if (line_start_) {
     // Left of the line through the aligned body's place at the ordered heading: along (-cos, -sin) of it.
-    const double dx = record.stone_x_m - line_start_->x_m;
-    const double dy = record.stone_y_m - line_start_->y_m;
+    const double dx = record.stone_x_m - order_.release_x_m.value_or(line_start_->x_m);
+    const double dy = order_.release_x_m ? 0.0 : record.stone_y_m - line_start_->y_m;
     o.lateral_error_m = -dx * std::cos(order_.heading_rad) - dy * std::sin(order_.heading_rad);
   }
   const double sense = order_.curl == servo::Curl::counter_clockwise ? 1.0 : -1.0;

@@ -124,8 +124,13 @@ servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {
 
 std::optional<std::string> ThrowerLoop::safety_stop() const {
   if (supervisor_.reason()) return supervisor_.reason();
+  if (stopped_by_team_) return stopped_by_team_;
   if (supervisor_.state() == servo::Supervision::disarmed) return refusal_;
   return std::nullopt;
+}
+
+void ThrowerLoop::stop(const std::string& reason) {
+  if (!stopped_by_team_) stopped_by_team_ = reason;
 }
 
 // The width and the rough place are known since the near view; what the filter believes confines the search.

@@ -26,6 +26,8 @@ class ThrowerLoop {
   /// a step that comes first does it as well as it still can.
   std::optional<Stamp> release_due() const { return release_due_; }
   void let_go(Stamp now);
+  /// Somebody else of the team wants the robot to stop: for good, with the stone held if it still is.
+  void stop(const std::string& reason);
 
   const servo::Thrower& thrower() const { return thrower_; }
   const servo::Supervisor& supervisor() const { return supervisor_; }
@@ -48,6 +50,7 @@ class ThrowerLoop {
   servo::Supervisor supervisor_;
   servo::ThrowerCommand command_;  ///< as permitted
   std::string refusal_ = "not armed";
+  std::optional<std::string> stopped_by_team_;
   std::vector<hw::DeviceError> device_errors_;
   void apply_jaws(const servo::GripperCommand& command, Stamp now);
 

@@ -163,7 +163,7 @@ TEST_F(SteelRobotTest, EveryPortIsServedByItsDeviceAndTellsWhenItIsGone) {
   robot_->gripper().release();
   ASSERT_TRUE(run_until([&] { return robot_->gripper().state().jaws == hw::JawState::open; })) << errors();
   EXPECT_EQ(errors(), "");
-  EXPECT_EQ(robot_->can_state().counters.foreign, 0U);
+  EXPECT_EQ(robot_->can_state()->counters.foreign, 0U);
 
   rink_.signal(SIGKILL);
   rink_.wait();

@@ -19,7 +19,7 @@ TEST(ShotLine, LeftIsPositive) {
 }
 
 TEST(LateralFilter, OdometryCarriesAndLooksCorrect) {
-  LateralFilter filter({0.0, 0.0, 0.0}, thrower_config().odometry, 0.003);
+  LateralFilter filter({0.0, 0.0, 0.0}, thrower_config().odometry, 0.0, 0.003);
   for (int i = 0; i < 200; ++i) filter.advance(2.0, 0.01, 0.001, seconds(period));
   EXPECT_NEAR(filter.lateral_m(), 2.0 * std::sin(0.01), 1e-9);
   const double before = filter.variance_m2();

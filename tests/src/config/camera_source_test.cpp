@@ -49,6 +49,31 @@ TEST(CameraSource, of_recordings_is_read) {
   EXPECT_DOUBLE_EQ(std::get<VideoSource>(rig_with("video: {path: a.mp4}").source("low").device).rate_hz, 0.0);
 }
 
+TEST(CameraSource, in_shared_memory_is_read) {
+  const CameraSource source = rig_with("shared_memory: low-1").source("low");
+  EXPECT_EQ(std::get<SharedMemorySource>(source.device).segment, "low-1");
+  EXPECT_THROW(rig_with("shared_memory: a/b"), ConfigError);
+  EXPECT_THROW(rig_with("shared_memory: low, simulated: {}"), ConfigError);
+}
+
+TEST(CanSection, names_the_kernels_bus_or_the_one_between_programs) {
+  const auto with_can = [](const std::string& can) {
+    std::string text{embedded_file("rigs/practice.yaml")};
+    const std::string from = "can: {interface: can0}";
+    return parse_rig(text.replace(text.find(from), from.size(), "can: {" + can + "}"), "rig.yaml");
+  };
+  const std::string udp = "udp_multicast: {group: 239.74.163.2, port: 43113, interface: lo}";
+  const Rig rig = with_can(udp);
+  EXPECT_EQ(rig.can_interface, "");
+  ASSERT_TRUE(rig.can_udp);
+  EXPECT_EQ(rig.can_udp->group, "239.74.163.2");
+  EXPECT_EQ(rig.can_udp->port, 43113);
+  EXPECT_EQ(rig.can_udp->interface, "lo");
+  EXPECT_THROW(with_can(""), ConfigError);
+  EXPECT_THROW(with_can("interface: can0, " + udp), ConfigError);
+  EXPECT_THROW(with_can("udp_multicast: {group: 10.0.0.1, port: 43113, interface: lo}"), ConfigError);
+}
+
 TEST(CameraSource, left_out_is_the_simulated_rink) {
   const Rig rig = rig_with("simulated: {}");
   EXPECT_TRUE(std::holds_alternative<SimulatedSource>(rig.source("far").device));

@@ -1,0 +1,72 @@
+#include "src/rink_command.hpp"
+
+#include <fmt/format.h>
+#include <optional>
+#include <thread>
+
+#include "src/exit_status.hpp"
+#include "src/live/input_lines.hpp"
+#include "src/live/live_rink.hpp"
+#include "src/live/process.hpp"
+#include "src/skip/skip_set.hpp"
+
+namespace hogline {
+namespace {
+
+constexpr Duration period = std::chrono::milliseconds(1);
+constexpr int rink_priority = 20;
+
+Stamp present() { return std::chrono::steady_clock::now(); }
+
+void obey(const std::string& line, LiveRink& rink, bool& quit) {
+  if (line == "again") {
+    const bool done = rink.put_back();
+    tell("rink", done ? "again" : "refused", done ? "the robot stands in the hack" : "the robot or a stone moves");
+  } else if (line == "quit") {
+    quit = true;
+  } else {
+    tell("rink", "refused", "'" + line + "': there are again, quit");
+  }
+}
+
+void run_until_asked(LiveRink& rink) {
+  InputLines input;
+  bool quit = false;
+  for (Stamp looked{}; !quit && !asked_to_end();) {
+    rink.pass(present());
+    pump_told();
+    if (present() - looked > std::chrono::milliseconds(20)) {
+      looked = present();
+      if (const auto line = input.line()) obey(*line, rink, quit);
+    }
+    std::this_thread::sleep_until(rink.now() + period);
+  }
+}
+
+hw::sim::Scenario drawn(const RinkOptions& options) {
+  hw::sim::Scenario scenario = load_skip_scenario(options.scenario, options.seed);
+  if (options.camera_hz > 0.0) scenario.near_camera.rate_hz = scenario.low_camera.rate_hz = options.camera_hz;
+  scenario.skip->far_camera.rate_hz = options.skip_hz;
+  return scenario;
+}
+
+std::optional<config::SkipRig> skip_rig(const RinkOptions& options) {
+  if (options.skip_rig.empty()) return std::nullopt;
+  return config::load_skip_rig(options.skip_rig);
+}
+
+}  // namespace
+
+int run_rink(const RinkOptions& options) {
+  listen_for_the_end();
+  const config::ThrowerRig rig = config::load_thrower_rig(options.rig);
+  TruthLog log(options.truth);
+  const bool first = run_first(rink_priority);
+  LiveRink rink(rig, skip_rig(options), drawn(options), log, present());
+  tell("rink", "ready", fmt::format("seed {}, {}", options.seed, first ? "runs first" : "runs as other programs do"));
+  run_until_asked(rink);
+  tell("rink", "end", "");
+  return ExitStatus::success;
+}
+
+}  // namespace hogline
