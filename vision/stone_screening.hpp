@@ -12,9 +12,11 @@
 namespace hogline::vision {
 
 struct ScreeningOptions {
-  StoneFitOptions first{.iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120};   ///< of each by itself
-  StoneFitOptions hidden{.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200};  ///< of what may be hidden
-  StoneFitOptions all{};                                                       ///< of all together
+  StoneFitOptions first{
+      .iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120};  ///< of each by itself
+  StoneFitOptions hidden{
+      .iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200};  ///< of what may be hidden
+  StoneFitOptions all{};                                                         ///< of all together
   double hiding_m = 1.2;  ///< a stone farther behind another is seen over it
 };
 

@@ -467,6 +467,13 @@ void StoneSequence::Impl::settle(const StonePicture& picture, const std::vector<
     }
   }
   if (!fresh.empty()) fit_together(picture, options, fresh);
+  std::vector<Eigen::Vector2d> places;
+  for (const NearerStone& s : scene.believed()) places.push_back(s.place);
+  for (std::size_t i = first_new; i < scene.stones.size(); ++i) {
+    JudgedStone& s = scene.stones[i];
+    StoneSighting sighting = sighting_of(s, setup.teams);
+    if (s.doubt.empty() && !scene.known[i]) s.doubt = last_doubt(picture, s, places, sighting);
+  }
 }
 
 // After remember(). A handle's direction is asked of stones that run: it tells how they turn.
@@ -480,7 +487,7 @@ StonesPercept StoneSequence::Impl::report(const StonePicture& picture, const Sto
   for (const Known& k : known) {
     if (!k.in_sight || !area.contains(k.seen.fit.place)) continue;
     seen.stones.push_back(sighting_of(k.seen, setup.teams));
-    if (!k.velocity.isZero()) measure_handle(picture, places, seen.stones.back());
+    if (!k.velocity.isZero()) measure_turning_handle(picture, places, seen.stones.back());
   }
   seen.candidates = static_cast<int>(scene.stones.size());
   seen.refused = seen.candidates - static_cast<int>(seen.stones.size());

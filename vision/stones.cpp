@@ -9,6 +9,7 @@
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
+#include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
@@ -18,6 +19,26 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
+constexpr double least_grip = 0.5;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
+constexpr double alike = 0.15;      // of the light's difference from ice
+
+std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
+  std::vector<Eigen::Vector2d> places;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) places.push_back(s.fit.place);
+  }
+  return places;
+}
+
+/// What stands on the ice ends at its foot and at its grip. Seen from above, paint below a stone of its own colour is
+/// not rare, and somebody may stand behind one: both together are a person.
+std::string doubt_of_a_person(const StonePicture& picture, const JudgedStone& stone,
+                              const std::vector<Eigen::Vector2d>& places) {
+  std::vector<NearerStone> nearer;
+  for (const Eigen::Vector2d& p : places) nearer.push_back({p});
+  const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
+  return around.granite_below && around.handle_above ? "it goes on below the foot and above the grip" : std::string();
+}
 
 }  // namespace
 
@@ -72,14 +93,14 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   compare_granite(stones);
   part_overlapping(picture, stones);
 
-  std::vector<Eigen::Vector2d> places;
+  const std::vector<Eigen::Vector2d> places = places_of(stones);
   for (JudgedStone& s : stones) {
-    if (s.doubt.empty()) places.push_back(s.fit.place);
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) seen.stones.push_back(sighting_of(s, impl_->setup.teams));
+    StoneSighting sighting = sighting_of(s, impl_->setup.teams);
+    if (s.doubt.empty()) s.doubt = last_doubt(picture, s, places, sighting);
+    if (s.doubt.empty()) seen.stones.push_back(sighting);
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
-  for (StoneSighting& s : seen.stones) measure_handle(picture, places, s);
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
   seen.groups = static_cast<int>(groups.boxes.size());
@@ -107,6 +128,20 @@ StoneArea stone_area(std::optional<double> sheet_width_m) {
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;
   area.max_y_m = rules::tee_to_hog_m + behind_hog_m;
   return area;
+}
+
+// The grip belongs to a stone: what is painted on the ice, for whatever eye, has nothing over its rim.
+std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
+                       const std::vector<Eigen::Vector2d>& places, StoneSighting& sighting) {
+  const std::string person = doubt_of_a_person(picture, stone, places);
+  if (!person.empty()) return person;
+  const HandleAngle handle = handle_angle(picture, sighting, places);
+  if (handle.present < least_grip) return "no grip over the plate";
+  if (handle.ok) {
+    sighting.handle_rad = handle.rad;
+    sighting.handle_sigma_rad = handle.sigma_rad;
+  }
+  return {};
 }
 
 // All together: stones that hide each other, and the shape they share.

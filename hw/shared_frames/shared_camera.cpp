@@ -12,7 +12,7 @@ constexpr int attempts = 3;
 }  // namespace
 
 std::optional<Frame> SharedCamera::latest(Stamp now) {
-  if (!asked_since_) asked_since_ = now;
+  note_asking(now);
   if (!ring_ && !connect(now)) return std::nullopt;
   ring_->header().asked_ns = now.time_since_epoch().count();
   if (!alive(now)) return std::nullopt;
@@ -25,6 +25,16 @@ std::optional<Frame> SharedCamera::latest(Stamp now) {
     return frame;
   }
   return std::nullopt;
+}
+
+// Whoever asks again after a pause may find another writer: that is no loss, for nobody was looking.
+void SharedCamera::note_asking(Stamp now) {
+  const bool paused = last_asked_ && now - *last_asked_ > config_.silence_limit;
+  last_asked_ = now;
+  if (!paused && asked_since_) return;
+  asked_since_ = now;
+  next_look_ = Stamp{};
+  if (!error_) ring_.reset();
 }
 
 // A latched error keeps the pictures back; a writer is looked for only afterwards, so that his coming is no surprise.
@@ -89,6 +99,7 @@ std::optional<Frame> SharedCamera::copy(std::uint64_t number) const {
 void SharedCamera::rearm() {
   error_.reset();
   asked_since_.reset();
+  last_asked_.reset();
   next_look_ = Stamp{};
 }
 

@@ -18,7 +18,8 @@ struct SharedCameraConfig {
 };
 
 /// Looks for the segment anew by itself. A writer that is gone, or another one in its place, is a latched error:
-/// pictures come again only after rearm(). A picture that is overwritten while it is copied is not given. Used by one
+/// pictures come again only after rearm(). After a pause in the asking (longer than silence_limit) it looks for the
+/// segment anew, and that is no error. A picture that is overwritten while it is copied is not given. Used by one
 /// thread.
 class SharedCamera final : public Camera {
  public:
@@ -29,6 +30,7 @@ class SharedCamera final : public Camera {
   void rearm() override;
 
  private:
+  void note_asking(Stamp now);
   bool connect(Stamp now);
   bool alive(Stamp now);
   std::optional<Frame> copy(std::uint64_t number) const;
@@ -39,6 +41,7 @@ class SharedCamera final : public Camera {
   std::uint32_t channels_ = 0;  ///< as it was when the ring was found
   std::uint64_t given_ = 0;     ///< pictures of this ring given or passed over
   std::optional<Stamp> asked_since_;
+  std::optional<Stamp> last_asked_;
   Stamp next_look_{};
   std::optional<DeviceError> error_;
 };

@@ -1,5 +1,7 @@
 #include "vision/detect/edge_field.hpp"
 
+#include <Eigen/Core>
+
 namespace hogline::vision {
 namespace {
 
@@ -27,7 +29,9 @@ struct Light {
         for (int x = 0; x < wide; ++x) out[x] = roots[in[3 * std::clamp(x0 + x - 1, 0, bgr.cols - 1)]];
       }
     }
-    for (float& light : root) light = scale * std::min(brightest, light * against);
+    // Eigen's minimum has no branches.
+    Eigen::Map<Eigen::Array<float, wide * wide, 1>> all(root.data());
+    all = scale * (against * all).min(brightest);
   }
 };
 

@@ -30,7 +30,9 @@ class EdgeField {
     const auto at = static_cast<std::size_t>(row % tile_px * tile_px + column % tile_px);
     const float across = std::abs(tile->x[at] * normal_x + tile->y[at] * normal_y);
     const float along = std::abs(tile->y[at] * normal_x - tile->x[at] * normal_y);
-    return std::clamp(across - 0.5F * along - noise_floor, 0.0F, 1.0F);
+    const float edge = across - 0.5F * along - noise_floor;
+    const float positive = edge > 0.0F ? edge : 0.0F;
+    return positive < 1.0F ? positive : 1.0F;
   }
 
  private:

@@ -171,6 +171,14 @@ int StoneGroupFinder::part_begins(int number, int count) const {
   return bands_[1].bottom;
 }
 
+void StoneGroupFinder::find_whites(const WhiteLight& ice, int columns, int y) {
+  per_white_.clear();
+  for (int x = 0; x < columns; x += white_px) {
+    const auto white = ice.at(x + white_px / 2, y + white_px / 2);
+    per_white_.push_back({1.0F / white[0], 1.0F / white[1], 1.0F / white[2]});
+  }
+}
+
 // In steps of `step` pixels, 1 where the mean of four pixels may be granite; with a margin of nothing about it.
 void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice,
                                     const ResponseCurve& response) {
@@ -178,15 +186,15 @@ void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const 
   const int columns = bgr.cols / band.step;
   granite_.create(rows + 2 * margin, columns + 2 * margin, CV_8UC1);
   granite_.setTo(0);
-  const int run = 32 / band.step;  // columns that share their white
+  const int run = white_px / band.step;  // columns that share their white, and so many rows
   for (int r = 0; r < rows; ++r) {
     const int y = band.top + band.step * r;
+    if (band.step * r % white_px == 0) find_whites(ice, bgr.cols, y);
     std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
     for (int begin = 0; begin < columns; begin += run) {
       const int end = std::min(begin + run, columns);
       if (!extent(band.step * begin, y).seen && !extent(band.step * end - 1, y).seen) continue;
-      const auto white = ice.at(band.step * (begin + end) / 2, y);
-      const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
+      const std::array<float, 3>& scale = per_white_[static_cast<std::size_t>(begin / run)];
       const std::uint8_t* upper = bgr.ptr<std::uint8_t>(y) + 3 * band.step * begin;
       const std::uint8_t* lower = bgr.ptr<std::uint8_t>(y + 1) + 3 * band.step * begin;
       for (int c = begin; c < end; ++c, upper += 3 * band.step, lower += 3 * band.step) {

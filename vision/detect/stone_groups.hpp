@@ -47,6 +47,7 @@ class StoneGroupFinder {
 
  private:
   static constexpr int block_px = 16;
+  static constexpr int white_px = 32;  ///< in which white ice is as light everywhere
 
   static constexpr int cell_px = 8;
   static constexpr int margin = 48;  ///< steps; beyond any rectangle below
@@ -88,6 +89,7 @@ class StoneGroupFinder {
   int first_big_row() const;
   void begin(const cv::Mat& bgr, StoneGroups& groups);
   void leave_out(const Band& band, const std::vector<cv::Point>& outline);
+  void find_whites(const WhiteLight& ice, int columns, int y);
   void find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
   void mark_centres(const Band& band, int columns, cv::Mat& centres);
   std::vector<cv::Rect> boxes_of(cv::Size picture) const;
@@ -96,6 +98,7 @@ class StoneGroupFinder {
   int top_;
   std::vector<Extent> extents_;
   std::array<Band, 2> bands_;
+  std::vector<std::array<float, 3>> per_white_;  ///< of a row of squares of white_px
   cv::Mat granite_;
   cv::Mat sums_;
   cv::Mat cells_;  ///< 255 where a centre may be

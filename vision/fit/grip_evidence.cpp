@@ -251,6 +251,16 @@ float GripEvidence::wall_light(const GripCover& cover, float expected, float sig
   return std::clamp((right + prior * expected) / (left + prior), 0.2F, 1.2F);
 }
 
+GripEvidence::Presence GripEvidence::presence(const GripCover& cover, float wall_light, float variance) const {
+  const Pixels lit = cover.top + wall_light * cover.side;
+  const Pixels all = cover.top + cover.side;
+  const float seen = (weight * (lit * seen_handle - all * seen_behind)).sum();
+  const float foretold =
+      (weight * (lit * (lit * handle_handle - 2.0F * all * handle_behind) + all.square() * behind_behind)).sum();
+  const float whole = std::max(1e-9F, foretold);
+  return {seen / whole, std::sqrt(variance / whole)};
+}
+
 double GripEvidence::lumpiness(const GripCover& cover, float wall_light) const {
   const Pixels all = misfits(cover, wall_light);
   std::array<float, most_pixels> sizes{};

@@ -1,5 +1,6 @@
 #include "tests/vision/stones/board_score.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -36,6 +37,14 @@ std::string doubt_near(const StonesSketch& sketch, double x_m, double y_m) {
   return last;
 }
 
+double in_sigmas(const StoneSighting& s, double dx_m, double dy_m) {
+  const PlaceCovariance& c = s.covariance;
+  const double determinant = c.xx_m2 * c.yy_m2 - c.xy_m2 * c.xy_m2;
+  const double square =
+      (c.yy_m2 * dx_m * dx_m - 2.0 * c.xy_m2 * dx_m * dy_m + c.xx_m2 * dy_m * dy_m) / std::max(1e-18, determinant);
+  return std::sqrt(0.5 * square);
+}
+
 void score(std::uint64_t seed, BoardScore& total) {
   const hogline::testing::RandomBoard board = hogline::testing::random_board(seed);
   const cv::Mat picture = hogline::testing::render(board.scene);
@@ -62,6 +71,7 @@ void score(std::uint64_t seed, BoardScore& total) {
       if (!wanted) break;
       ++total.found;
       total.errors_m.push_back(error);
+      total.in_sigmas.push_back(in_sigmas(s, s.x_m - truth.x_m, s.y_m - truth.y_m));
       if (std::hypot(truth.x_m, truth.y_m) < 2.0) total.house_errors_m.push_back(error);
       if (s.team == Team::unknown) ++total.unknown_team;
       if (s.team != Team::unknown && (s.team == Team::first) != truth.red) {

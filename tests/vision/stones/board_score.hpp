@@ -23,6 +23,7 @@ struct BoardScore {
   int unknown_team = 0;
   std::vector<double> errors_m;        ///< of all found
   std::vector<double> house_errors_m;  ///< of those within 2 m of the tee
+  std::vector<double> in_sigmas;       ///< of all found: along and across by their covariance, over the root of two
   std::vector<std::string> failures;   ///< one line each, with the board's seed
 
   double recall() const { return stones > 0 ? static_cast<double>(found) / stones : 1.0; }

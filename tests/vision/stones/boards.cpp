@@ -18,6 +18,12 @@ int main(int argc, char** argv) {
       "mm RMS, %.1f mm within 2 m of the tee, %.1f mm at most\n",
       score.boards, score.stones, 100.0 * score.recall(), 100.0 * score.precision(), score.wrong_team,
       score.unknown_team, 1e3 * score.rms(score.errors_m), 1e3 * score.rms(score.house_errors_m), 1e3 * worst);
+  std::vector<double> sorted = score.in_sigmas;
+  std::sort(sorted.begin(), sorted.end());
+  if (!sorted.empty()) {
+    std::printf("errors in sigmas: %.2f RMS, %.2f median, %.2f in the worst of a hundred\n", score.rms(sorted),
+                sorted[sorted.size() / 2], sorted[sorted.size() * 99 / 100]);
+  }
   std::printf("beside them %d stones of which less can be seen, %d of them found; %d hidden\n", score.between,
               score.between_found, score.hidden);
   return 0;

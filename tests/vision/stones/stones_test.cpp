@@ -13,6 +13,7 @@
 #include "tests/support/random_board.hpp"
 #include "tests/vision/scene.hpp"
 #include "tests/vision/stones/board_score.hpp"
+#include "tests/vision/stones/negatives.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -77,6 +78,8 @@ TEST(Stones, RandomBoardsWithClumpsAndPeople) {
   EXPECT_EQ(score.wrong_team, 0) << ::testing::PrintToString(score.failures);
   EXPECT_LT(testing::BoardScore::rms(score.house_errors_m), 0.004);
   EXPECT_LT(testing::BoardScore::rms(score.errors_m), 0.020);
+  EXPECT_LT(testing::BoardScore::rms(score.in_sigmas), 2.0) << "the covariance is too small";
+  EXPECT_GT(testing::BoardScore::rms(score.in_sigmas), 0.4) << "the covariance is too large";
 }
 
 // What is no stone of ours, on sheets that nobody has chosen.
@@ -89,44 +92,43 @@ TEST(Stones, AnEmptySheetIsOkAndEmpty) {
   }
 }
 
+struct Ghosts {
+  int stones = 0;
+  std::string where;
+};
+
+Ghosts ghosts_of(RandomBoard (*sheet)(std::uint64_t), std::uint64_t last) {
+  Ghosts all;
+  for (std::uint64_t seed = 1; seed <= last; ++seed) {
+    for (const auto& [x_m, y_m] : places(look(sheet(seed)))) {
+      ++all.stones;
+      all.where += std::to_string(seed) + ": " + std::to_string(x_m) + " " + std::to_string(y_m) + "; ";
+    }
+  }
+  return all;
+}
+
+// Seeds without holes: nobody has chosen them.
 TEST(Stones, LogosOfTheHandlesColoursAreNone) {
-  for (const std::uint64_t seed : {4U, 41U, 42U, 43U}) {
-    RandomBoard board = bare(seed);
-    for (const double x_m : {-1.2, -0.4, 0.5, 1.3}) {
-      board.scene.rink.sheet.logos.push_back({x_m, 2.8, 0.19, 0.19, {0.55F, 0.02F, 0.02F}});
-      board.scene.rink.sheet.logos.push_back({x_m, 0.4, 0.25, 0.2, {0.75F, 0.55F, 0.03F}});
-    }
-    EXPECT_TRUE(look(board).stones.empty()) << seed;
-  }
+  const Ghosts ghosts = ghosts_of(testing::handle_coloured_logos, 16);
+  EXPECT_EQ(ghosts.stones, 0) << ghosts.where;
 }
 
-// A broom's head lies flat: a pad of the handles' colour on a grey plate, and the shaft.
 TEST(Stones, BroomsAreNone) {
-  for (const std::uint64_t seed : {51U, 52U, 53U}) {
-    RandomBoard board = bare(seed);
-    for (const double x_m : {-1.3, -0.5, 0.4, 1.2}) {
-      const double y_m = 1.0 + x_m;
-      board.scene.rink.sheet.logos.push_back({x_m, y_m, 0.22, 0.08, {0.2F, 0.2F, 0.21F}});
-      board.scene.rink.sheet.logos.push_back({x_m, y_m + 0.06, 0.20, 0.05, {0.55F, 0.02F, 0.02F}});
-      board.scene.rink.sheet.logos.push_back({x_m, y_m - 0.6, 0.03, 1.1, {0.72F, 0.52F, 0.03F}});
-    }
-    EXPECT_TRUE(look(board).stones.empty()) << seed;
-  }
+  const Ghosts ghosts = ghosts_of(testing::brooms, 16);
+  EXPECT_EQ(ghosts.stones, 0) << ghosts.where;
 }
 
-TEST(Stones, PeoplesFeetAreNone) {
-  for (const std::uint64_t seed : {5U, 61U, 64U}) {
-    RandomBoard board = bare(seed);
-    for (const double x_m : {-1.0, 0.2, 1.1}) {
-      hw::sim::PersonLook person;
-      person.x_m = x_m;
-      person.y_m = 0.8 + x_m;
-      person.trousers = {0.2F, 0.2F, 0.2F};  // as grey as granite
-      person.jacket = {0.55F, 0.02F, 0.02F};
-      board.scene.exposure.people.push_back(person);
-    }
-    EXPECT_THAT(places(look(board)), ::testing::IsEmpty()) << seed;
-  }
+// Of 256 that are painted for this very camera some are still believed: their plate's edge is taken for a grip.
+TEST(Stones, StonesPaintedOnTheIceAreNone) {
+  const Ghosts ghosts = ghosts_of(testing::painted_stones, 64);
+  EXPECT_LE(ghosts.stones, 4) << ghosts.where;
+}
+
+// Of 192 with trousers like granite under red jackets one is still believed.
+TEST(Stones, PeopleInGreyAreNone) {
+  const Ghosts ghosts = ghosts_of(testing::people_in_grey, 64);
+  EXPECT_LE(ghosts.stones, 1) << ghosts.where;
 }
 
 TEST(Stones, TheNeighbouringSheetsStoneIsNotOurs) {
