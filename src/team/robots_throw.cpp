@@ -179,6 +179,8 @@ std::optional<ThrowReport> RobotsThrow::ordered() {
   }
   const Duration waited = team_.now() - since_;
   const bool silent = phase == OrderPhase::sent && waited > answer_limit;
+  const bool still_brakes = phase == OrderPhase::refused && team_.thrower().throwing();
+  if (still_brakes && waited < throw_limit) return std::nullopt;
   if (phase == OrderPhase::refused || silent || waited > throw_limit) return failed(team_.skip().why());
   return std::nullopt;
 }

@@ -82,7 +82,7 @@ TEST(RobotsThrow, ATurnFromTheLookToTheCount) {
   ASSERT_TRUE(report.trajectory);
   servo::Board replayed = report.trajectory->start;
   for (const auto& frame : report.trajectory->frames)
-    for (const auto& change : frame) replayed.stones[side_of(change.team)][change.stone] = change.now;
+    for (const auto& change : frame) replayed.stones[servo::side_of(change.team)][change.stone] = change.now;
   EXPECT_EQ(replayed, report.seen.lying) << "its frames lead to where the stones lie";
   EXPECT_EQ(one.robots.ice().estimate().throws, 1) << "the ice model has learnt";
   EXPECT_NEAR(one.robots.ice().estimate().friction_scale, one.team.request().scenario.stone.friction_scale, 0.03);
