@@ -136,9 +136,10 @@ struct Best {
 Best best_of(const std::vector<Row>& rows) {
   const double span_s = rows.back().after_s - rows.front().after_s;
   const double step_radps = 0.4 / span_s;
+  const double lagged = rows.back().lag - rows.front().lag;
   const int steps = static_cast<int>(fastest_radps(rows) / step_radps);
   // A loss that is wrong by half a step leaves half a radian at most.
-  const int losses = std::clamp(static_cast<int>(most_loss * rows.back().lag), 2, 24);
+  const int losses = std::clamp(static_cast<int>(most_loss * lagged), 4, 24);
   const std::vector<Row> some = thinned(rows);
   const Trials trials(some);
   std::vector<Turn> turns;
@@ -149,10 +150,9 @@ Best best_of(const std::vector<Row>& rows) {
   Best best;
   best.turn =
       *std::max_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) { return worth(a) < worth(b); });
-  // Rate and loss make up for each other: what turns as far in the middle is the same turn.
-  const double middle_s = 0.5 * span_s, lag = rows[rows.size() / 2].lag;
+  // Rate and loss make up for each other: what turns as far between the first look and the last is the same turn.
   const auto mean_rate = [&](const Turn& t) {
-    return t.spin_radps - std::copysign(t.loss * lag / std::max(0.5, middle_s), t.spin_radps);
+    return t.spin_radps - std::copysign(t.loss * lagged / span_s, t.spin_radps);
   };
   best.alone = std::none_of(turns.begin(), turns.end(), [&](const Turn& t) {
     const bool another = std::abs(mean_rate(t) - mean_rate(best.turn)) * span_s > 2.0;

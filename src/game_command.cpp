@@ -96,6 +96,7 @@ int play_with_robots(const GameOptions& options) {
                            1e3 * d.margin_m, d.a_measure ? " (a measure)" : "");
   }
   write(out / "summary.md", summary);
+  write(out / "figures.json", figures_json(truth.figures(), records));
   fmt::print(stderr, "\n{}\n", summary);
   return print_end(referee);
 }

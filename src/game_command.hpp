@@ -16,7 +16,7 @@ struct GameOptions : TableOptions {
 };
 
 /// Prints a JSON object an event on stdout, which is DIR/game.jsonl too, and the result on stderr; DIR/game.dcl2 beside
-/// it. With robots also DIR/throws.csv, what each throw was against the simulator's truth.
+/// it. With robots also DIR/throws.csv, summary.md and figures.json: what it was against the simulator's truth.
 int run_game(const GameOptions& options);
 
 }  // namespace hogline

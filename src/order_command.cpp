@@ -11,7 +11,7 @@
 #include "src/config/device_rig.hpp"
 #include "src/exit_status.hpp"
 #include "src/live/process.hpp"
-#include "src/live/team_post.hpp"
+#include "src/team/link_end.hpp"
 
 namespace hogline {
 namespace {
@@ -20,6 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration throw_limit = 120s;
 constexpr Duration answer_limit = 3s;
+constexpr Duration alone_for = 1500ms;  // a skip that was here before must have been silent for a second
 
 const char* word(hw::ThrowerPhase phase) {
   constexpr const char* words[] = {"idle", "aligning", "running", "released", "stopped", "fault"};
@@ -34,16 +35,20 @@ class Commander {
         thrower_(rig.link->peers.front()),
         options_(options),
         link_(*rig.link, clock_.now(), hw::TeamTime{std::chrono::system_clock::now().time_since_epoch()}),
-        post_(*rig.link, link_),
+        end_(link_, name_, thrower_),
         start_(clock_.now()) {}
 
   /// False once there is nothing more to wait for.
   bool step() {
     const Stamp now = clock_.now();
-    for (const hw::ReceivedMessage& received : post_.step(now)) hear(received.message, now);
+    pump_told();
+    end_.step(now);
+    while (const auto received = end_.receive(now)) hear(received->message);
     watch_peer(now);
     if (finished_) return options_.stay;
-    if (!ordered_at_ && state_ && state_->armed && there_ && post_.peer(thrower_, now).clock) order(now);
+    if (!ordered_at_ && now > start_ + alone_for && state_ && state_->armed && there_ && link_.matched_readers(0) > 0 &&
+        end_.local(state_->origin.stamp, now))
+      order(now);
     const Stamp end = ordered_at_ ? *ordered_at_ + throw_limit : start_ + from_seconds(options_.wait_s);
     if (now > end) finish(ordered_at_ ? "the thrower does not come to an end" : "the thrower was not armed in time");
     const bool taken = state_ && state_->order_serial == serial_;
@@ -61,12 +66,12 @@ class Commander {
     order.speed_mps = options_.speed_mps;
     order.heading_rad = options_.heading_deg * std::numbers::pi / 180.0;
     order.spin_radps = options_.spin_radps;
-    post_.send(order, now);
+    end_.send(order, now);
     tell(name_, "ordered",
          fmt::format("{:.3f} m/s, {:.2f} deg, {:+.2f} rad/s", order.speed_mps, options_.heading_deg, order.spin_radps));
   }
 
-  void hear(const hw::TeamMessage& message, Stamp) {
+  void hear(const hw::TeamMessage& message) {
     if (const auto* state = std::get_if<hw::ThrowerStateMessage>(&message)) hear_state(*state);
     if (const auto* release = std::get_if<hw::ReleaseMessage>(&message)) {
       if (release->order_serial != serial_) return;
@@ -89,12 +94,13 @@ class Commander {
     if (!ordered_at_ || finished_) return;
     const bool ours = state.order_serial == serial_ && !anew;
     if (anew) finish("the thrower was started anew");
-    if (ours && (state.phase == hw::ThrowerPhase::stopped || state.phase == hw::ThrowerPhase::fault) && !state.armed)
-      finish(state.reason);
+    const bool over = state.phase == hw::ThrowerPhase::stopped || state.phase == hw::ThrowerPhase::fault ||
+                      (state.phase == hw::ThrowerPhase::idle && released_);
+    if (ours && over) finish(state.reason);
   }
 
   void watch_peer(Stamp now) {
-    const bool there = post_.peer(thrower_, now).presence == hw::link::Presence::there;
+    const bool there = end_.missing(now).empty();
     if (there != there_) tell(name_, there ? "heard" : "silent", thrower_);
     there_ = there;
   }
@@ -111,7 +117,7 @@ class Commander {
   OrderOptions options_;
   hw::SteadyClock clock_;
   hw::link::DdsTeamLink link_;
-  TeamPost post_;
+  LinkEnd end_;
   Stamp start_;
   std::optional<hw::ThrowerStateMessage> state_;
   std::optional<Stamp> ordered_at_;

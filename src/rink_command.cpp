@@ -1,19 +1,14 @@
 #include "src/rink_command.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
-
-#include <array>
 #include <optional>
 #include <thread>
 
-#include "src/config/embedded.hpp"
-#include "src/config/scenario.hpp"
-#include "src/config/strict_yaml.hpp"
 #include "src/exit_status.hpp"
+#include "src/live/input_lines.hpp"
 #include "src/live/live_rink.hpp"
 #include "src/live/process.hpp"
+#include "src/skip/skip_set.hpp"
 
 namespace hogline {
 namespace {
@@ -23,54 +18,41 @@ constexpr int rink_priority = 20;
 
 Stamp present() { return std::chrono::steady_clock::now(); }
 
-config::ScenarioFile scenario_file(const std::string& path) {
-  if (!path.empty()) return {config::read_file(path), path};
-  return {config::embedded_file("scenarios/practice.yaml"), "practice scenario"};
+void obey(const std::string& line, LiveRink& rink, bool& quit) {
+  if (line == "again") {
+    const bool done = rink.put_back();
+    tell("rink", done ? "again" : "refused", done ? "the robot stands in the hack" : "the robot or a stone moves");
+  } else if (line == "quit") {
+    quit = true;
+  } else {
+    tell("rink", "refused", "'" + line + "': there are again, quit");
+  }
 }
 
-// Words on stdin, a line each; whoever closes it has nothing more to say.
-class Stdin {
- public:
-  std::optional<std::string> line() {
-    pollfd waiting{STDIN_FILENO, POLLIN, 0};
-    if (open_ && poll(&waiting, 1, 0) == 1) {
-      std::array<char, 256> bytes{};
-      const auto got = read(STDIN_FILENO, bytes.data(), bytes.size());
-      open_ = got > 0;
-      if (open_) said_.append(bytes.data(), static_cast<std::size_t>(got));
-    }
-    const auto end = said_.find('\n');
-    if (end == std::string::npos) return std::nullopt;
-    const std::string line = said_.substr(0, end);
-    said_.erase(0, end + 1);
-    return line;
-  }
-
- private:
-  bool open_ = true;
-  std::string said_;
-};
-
-enum class Wish { again, quit };
-
-Wish run_until_asked(LiveRink& rink, Stdin& input) {
-  for (Stamp looked{}; !asked_to_end();) {
+void run_until_asked(LiveRink& rink) {
+  InputLines input;
+  bool quit = false;
+  for (Stamp looked{}; !quit && !asked_to_end();) {
     rink.pass(present());
+    pump_told();
     if (present() - looked > std::chrono::milliseconds(20)) {
       looked = present();
-      const auto line = input.line();
-      if (line && (*line == "again" || *line == "quit")) return *line == "again" ? Wish::again : Wish::quit;
-      if (line) tell("rink", "refused", "'" + *line + "': there are again, quit");
+      if (const auto line = input.line()) obey(*line, rink, quit);
     }
     std::this_thread::sleep_until(rink.now() + period);
   }
-  return Wish::quit;
 }
 
-hw::sim::Scenario drawn(const config::ScenarioFile& file, const RinkOptions& options, std::uint64_t seed) {
-  hw::sim::Scenario scenario = file.draw(seed);
+hw::sim::Scenario drawn(const RinkOptions& options) {
+  hw::sim::Scenario scenario = load_skip_scenario(options.scenario, options.seed);
   if (options.camera_hz > 0.0) scenario.near_camera.rate_hz = scenario.low_camera.rate_hz = options.camera_hz;
+  scenario.skip->far_camera.rate_hz = options.skip_hz;
   return scenario;
+}
+
+std::optional<config::SkipRig> skip_rig(const RinkOptions& options) {
+  if (options.skip_rig.empty()) return std::nullopt;
+  return config::load_skip_rig(options.skip_rig);
 }
 
 }  // namespace
@@ -78,15 +60,11 @@ hw::sim::Scenario drawn(const config::ScenarioFile& file, const RinkOptions& opt
 int run_rink(const RinkOptions& options) {
   listen_for_the_end();
   const config::ThrowerRig rig = config::load_thrower_rig(options.rig);
-  const config::ScenarioFile scenarios = scenario_file(options.scenario);
   TruthLog log(options.truth);
-  Stdin input;
   const bool first = run_first(rink_priority);
-  for (std::uint64_t seed = options.seed;; ++seed) {
-    LiveRink rink(rig, drawn(scenarios, options, seed), log, present());
-    tell("rink", "ready", fmt::format("seed {}, {}", seed, first ? "runs first" : "runs as other programs do"));
-    if (run_until_asked(rink, input) == Wish::quit) break;
-  }
+  LiveRink rink(rig, skip_rig(options), drawn(options), log, present());
+  tell("rink", "ready", fmt::format("seed {}, {}", options.seed, first ? "runs first" : "runs as other programs do"));
+  run_until_asked(rink);
   tell("rink", "end", "");
   return ExitStatus::success;
 }

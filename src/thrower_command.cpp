@@ -26,6 +26,10 @@ constexpr Duration free_first = 500ms;
 
 void check(const config::ThrowerRig& rig) {
   if (!rig.link) throw config::ConfigError(rig.rig.file, 0, "link", "", "missing; the thrower takes its orders there");
+  if (rig.link->robot != "thrower" || rig.link->peers != std::vector<std::string>{"skip"}) {
+    throw config::ConfigError(rig.rig.file, 0, "link.robot", rig.link->robot,
+                              "must be thrower, and its peer skip: who throws, and who orders");
+  }
   if (rig.operator_socket.empty()) {
     throw config::ConfigError(rig.rig.file, 0, "operator.socket", "",
                               "missing; without somebody who holds the switch nothing moves");
@@ -49,9 +53,9 @@ void run_control(LiveThrower& thrower, Duration period, ServiceManager& services
     last = now;
     due = std::max(due, now - period);  // what is lost is lost
     if (asked_to_end()) {
-      if (!end_asked) thrower.end("is told to end");
+      if (!end_asked) thrower.end();
       end_asked = end_asked.value_or(now);
-      if (thrower.at_rest() || now - *end_asked > longest_end) return;
+      if (thrower.phase() != LivePhase::throwing || now - *end_asked > longest_end) return;
     }
   }
 }

@@ -60,6 +60,19 @@ void add_stones(SheetPlan& plan, const TurnRecord& r) {
   }
 }
 
+/// Where the stones lay that were struck, without colour.
+void add_stones_before(SheetPlan& plan, const TurnRecord& r) {
+  constexpr double moved_m = 0.05;
+  for (const std::size_t side : {0u, 1u}) {
+    for (std::size_t i = 0; i < servo::stones_each; ++i) {
+      const auto &before = r.turn.board.stones[side][i], &after = r.report.seen.lying.stones[side][i];
+      if (!before || (after && std::hypot(after->x_m - before->x_m, after->y_m - before->y_m) < moved_m)) continue;
+      plan.stones.push_back(
+          {.place_m = in_thrower(*before), .handle_rad = before->angle_rad, .team = inks::grid, .label = {}});
+    }
+  }
+}
+
 void add_skips_view(SheetPlan& plan, const TurnRecord& r) {
   if (!r.followed) return;
   PlanTrack trail{.name = "as the skip saw it", .points_m = {}, .ink = inks::blue};
@@ -86,6 +99,7 @@ cv::Mat plan_of(const ToldTurn& told, double from_y_m, double to_y_m, const std:
   plan.tracks.push_back({.name = "thrower", .points_m = points(r.robot_path), .ink = inks::purple});
   plan.tracks.push_back({.name = "stone", .points_m = points(r.stone_path), .ink = inks::red});
   add_skips_view(plan, r);
+  add_stones_before(plan, r);
   add_stones(plan, r);
   if (!r.stone_path.empty() && from_y_m < 0.0) {
     plan.marks.push_back({.name = "released", .place_m = points(r.stone_path).front()});
@@ -201,8 +215,9 @@ void write_turn(const std::string& folder, const ToldTurn& told) {
   const std::filesystem::path out(folder);
   const Views views = views_of(told);
   const cv::Mat above = plan_of(told, -5.5, 40.5, "the turn from above", 1600);
-  const cv::Mat close =
-      plan_of(told, 27.0, 38.0, "where it ends: foretold stop (green), hits, stones by their number", 1600);
+  const cv::Mat close = plan_of(
+      told, 27.0, 38.0,
+      "where it ends: hits, stones by their number (grey: before), the stop foretold at the hog line (green)", 1600);
   write_picture(out / "near.png", views.near);
   write_picture(out / "low.png", views.low);
   write_picture(out / "house_before.png", views.house_before);
@@ -218,7 +233,7 @@ void write_turn(const std::string& folder, const ToldTurn& told) {
                                     {{views.far, "skip, far view: the stone on its way"},
                                      {views.house_after, "skip, near view: the house afterwards"}},
                                     {{close, "where it ends"}}},
-                                   1600));
+                                   1100));
   std::ofstream stream(out / "turn.json", std::ios::binary);
   stream << turn_json(*told.record) << "\n";
   stream.close();

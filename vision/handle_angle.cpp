@@ -25,7 +25,9 @@ constexpr float edge_px = 0.15F;    // what the pixels of an edge have in common
 constexpr double fewest_pixels = 24.0;
 constexpr double least_visible = 0.6;
 constexpr double least_explained = 0.35;
-constexpr double most_lumpy = 7.0;  // of the misfit: noise makes about two
+constexpr double well_explained = 0.7;
+constexpr double one_of_many_factor = 2.0;  // on the sigma of what is not believed by itself
+constexpr double most_lumpy = 7.0;          // of the misfit: noise makes about two
 constexpr double most_sigma_rad = 0.35;
 constexpr float another_rad = 0.35F;     // from here on it is another direction,
 constexpr float as_good_sigmas2 = 9.0F;  // and this much worse than the best may be as good
@@ -215,6 +217,7 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
     angle.reason = "no grip explains what is seen over the plate";
   } else if (search.lumpiness(best) > most_lumpy) {
     angle.reason = "something else is seen over the plate";
+    angle.one_of_many = angle.explained >= well_explained && angle.sigma_rad < most_sigma_rad;
   } else if (contradict(best, other, evidence)) {
     angle.reason = "two directions explain it equally well";
   } else if (!(angle.sigma_rad < most_sigma_rad)) {
@@ -229,6 +232,14 @@ void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector
   if (!handle.ok) return;
   stone.handle_rad = handle.rad;
   stone.handle_sigma_rad = handle.sigma_rad;
+}
+
+void measure_turning_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places,
+                            StoneSighting& stone) {
+  const HandleAngle handle = handle_angle(picture, stone, places);
+  if (!handle.ok && !handle.one_of_many) return;
+  stone.handle_rad = handle.rad;
+  stone.handle_sigma_rad = (handle.ok ? 1.0 : one_of_many_factor) * handle.sigma_rad;
 }
 
 }  // namespace hogline::vision

@@ -13,6 +13,7 @@ namespace hogline::vision {
 /// `ok == false`: not measured, with the reason; nothing is guessed.
 struct HandleAngle {
   bool ok = false;
+  bool one_of_many = false;  ///< not to be believed by itself; of a stone that turns, together with its other looks
   std::string reason = {};
   double rad = 0.0;  ///< of the grip's bar from e's y axis, counter-clockwise, within half a turn about 0: it looks
                      ///< the same from both ends, and makers put the neck in different places
@@ -32,5 +33,9 @@ HandleAngle handle_angle(const StonePicture& picture, const StoneSighting& stone
 
 /// The same into a sighting; what can not be measured is left empty.
 void measure_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places, StoneSighting& stone);
+
+/// Of a stone that turns: looks that only together are believed count, with twice their sigma.
+void measure_turning_handle(const StonePicture& picture, const std::vector<Eigen::Vector2d>& places,
+                            StoneSighting& stone);
 
 }  // namespace hogline::vision

@@ -19,8 +19,8 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
-constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
-constexpr double alike = 0.15;       // of the light's difference from ice
+constexpr double least_grip = 0.5;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
+constexpr double alike = 0.15;      // of the light's difference from ice
 
 std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
   std::vector<Eigen::Vector2d> places;
@@ -51,8 +51,6 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   std::string unusable(const cv::Mat& image) const;
-  std::string report(const StonePicture& picture, const JudgedStone& stone, const std::vector<Eigen::Vector2d>& places,
-                     StonesPercept& seen) const;
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
@@ -98,8 +96,9 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const std::vector<Eigen::Vector2d> places = places_of(stones);
   for (JudgedStone& s : stones) {
     if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    if (s.doubt.empty()) s.doubt = doubt_of_a_person(picture, s, places);
-    if (s.doubt.empty()) s.doubt = impl_->report(picture, s, places, seen);
+    StoneSighting sighting = sighting_of(s, impl_->setup.teams);
+    if (s.doubt.empty()) s.doubt = last_doubt(picture, s, places, sighting);
+    if (s.doubt.empty()) seen.stones.push_back(sighting);
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
@@ -132,16 +131,16 @@ StoneArea stone_area(std::optional<double> sheet_width_m) {
 }
 
 // The grip belongs to a stone: what is painted on the ice, for whatever eye, has nothing over its rim.
-std::string StoneFinder::Impl::report(const StonePicture& picture, const JudgedStone& stone,
-                                      const std::vector<Eigen::Vector2d>& places, StonesPercept& seen) const {
-  StoneSighting sighting = sighting_of(stone, setup.teams);
+std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
+                       const std::vector<Eigen::Vector2d>& places, StoneSighting& sighting) {
+  const std::string person = doubt_of_a_person(picture, stone, places);
+  if (!person.empty()) return person;
   const HandleAngle handle = handle_angle(picture, sighting, places);
   if (handle.present < least_grip) return "no grip over the plate";
   if (handle.ok) {
     sighting.handle_rad = handle.rad;
     sighting.handle_sigma_rad = handle.sigma_rad;
   }
-  seen.stones.push_back(sighting);
   return {};
 }
 

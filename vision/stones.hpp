@@ -13,6 +13,7 @@
 #include "vision/fit/stone_fit.hpp"
 #include "vision/geometry/stone_shape.hpp"
 #include "vision/percepts/stones.hpp"
+#include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
 
@@ -37,6 +38,11 @@ struct StonesSketch {
 /// Where a stone of this sheet can lie: its centre between the sidelines, and not far outside of hog and back line. A
 /// stone that touches one is out, but ours.
 StoneArea stone_area(std::optional<double> sheet_width_m);
+
+/// Why what looks like a stone is none after all, by what stands up from the ice: somebody goes on, paint has no grip.
+/// The handle's direction goes into its sighting. `places` are those of all that look like stones.
+std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
+                       const std::vector<Eigen::Vector2d>& places, StoneSighting& sighting);
 
 class StoneFinder {
  public:

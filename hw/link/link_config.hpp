@@ -19,7 +19,6 @@ struct LinkSecurity {
 struct LinkConfig {
   std::string robot;                     ///< this robot's name, unique in the team
   std::vector<std::string> peers;        ///< the others' names
-  std::string commander;                 ///< the peer whose shot orders count; empty: nobody's
   std::uint32_t domain = 0;              ///< DDS domain, 0..232; ROS 2's ROS_DOMAIN_ID
   std::string interface = "lo";          ///< the only network interface that is listened on
   std::vector<std::string> addresses;    ///< where peers may be, as there is no multicast; empty: this machine alone

@@ -12,7 +12,7 @@ constexpr int attempts = 3;
 }  // namespace
 
 std::optional<Frame> SharedCamera::latest(Stamp now) {
-  if (!asked_since_) asked_since_ = now;
+  note_asking(now);
   if (!ring_ && !connect(now)) return std::nullopt;
   ring_->header().asked_ns = now.time_since_epoch().count();
   if (!alive(now)) return std::nullopt;
@@ -22,9 +22,21 @@ std::optional<Frame> SharedCamera::latest(Stamp now) {
     auto frame = copy(count - 1);
     if (!frame) continue;
     given_ = count;
+    frame->id += id_offset_;
+    last_id_ = frame->id;
     return frame;
   }
   return std::nullopt;
+}
+
+// Whoever asks again after a pause may find another writer: that is no loss, for nobody was looking.
+void SharedCamera::note_asking(Stamp now) {
+  const bool paused = last_asked_ && now - *last_asked_ > config_.silence_limit;
+  last_asked_ = now;
+  if (!paused && asked_since_) return;
+  asked_since_ = now;
+  next_look_ = Stamp{};
+  if (!error_) ring_.reset();
 }
 
 // A latched error keeps the pictures back; a writer is looked for only afterwards, so that his coming is no surprise.
@@ -50,6 +62,7 @@ bool SharedCamera::connect(Stamp now) {
   }
   given_ = header.newest_count.load(std::memory_order_acquire);  // what was written for others is old
   channels_ = header.shape.channels;
+  id_offset_ = last_id_;
   if (header.shape.width_px == config_.width_px && header.shape.height_px == config_.height_px) return true;
   fail(DeviceErrorKind::protocol,
        "pictures of " + std::to_string(header.shape.width_px) + " x " + std::to_string(header.shape.height_px) +
@@ -89,6 +102,7 @@ std::optional<Frame> SharedCamera::copy(std::uint64_t number) const {
 void SharedCamera::rearm() {
   error_.reset();
   asked_since_.reset();
+  last_asked_.reset();
   next_look_ = Stamp{};
 }
 

@@ -18,7 +18,8 @@ struct SharedCameraConfig {
 };
 
 /// Looks for the segment anew by itself. A writer that is gone, or another one in its place, is a latched error:
-/// pictures come again only after rearm(). A picture that is overwritten while it is copied is not given. Used by one
+/// pictures come again only after rearm(). After a pause in the asking (longer than silence_limit) it looks for the
+/// segment anew, and that is no error. A picture that is overwritten while it is copied is not given. Used by one
 /// thread.
 class SharedCamera final : public Camera {
  public:
@@ -29,6 +30,7 @@ class SharedCamera final : public Camera {
   void rearm() override;
 
  private:
+  void note_asking(Stamp now);
   bool connect(Stamp now);
   bool alive(Stamp now);
   std::optional<Frame> copy(std::uint64_t number) const;
@@ -36,9 +38,12 @@ class SharedCamera final : public Camera {
 
   SharedCameraConfig config_;
   std::optional<FrameRingMapping> ring_;
-  std::uint32_t channels_ = 0;  ///< as it was when the ring was found
-  std::uint64_t given_ = 0;     ///< pictures of this ring given or passed over
+  std::uint32_t channels_ = 0;   ///< as it was when the ring was found
+  std::uint64_t given_ = 0;      ///< pictures of this ring given or passed over
+  std::uint64_t last_id_ = 0;    ///< given to anybody
+  std::uint64_t id_offset_ = 0;  ///< of this ring: numbers that are given grow from ring to ring
   std::optional<Stamp> asked_since_;
+  std::optional<Stamp> last_asked_;
   Stamp next_look_{};
   std::optional<DeviceError> error_;
 };

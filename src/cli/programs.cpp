@@ -15,18 +15,22 @@ void add_rink(CLI::App& app, Chosen& chosen) {
   RinkOptions& options = *kept;
   auto* rink = app.add_subcommand("rink", "the simulated rink as a program of its own, for `hogline thrower`");
   rink->add_option("--rig", options.rig, "the thrower's rig file (YAML): its lines are served")->required();
+  rink->add_option("--skip-rig", options.skip_rig, "the skip's rig file (YAML); without it there is no skip");
   rink->add_option("--scenario", options.scenario, "scenario file (YAML); without it the practice rink");
   rink->add_option("--seed", options.seed, "of all that is random in the simulation, a whole number from 0")
       ->capture_default_str()
       ->check(whole_number);
   rink->add_option("--camera-hz", options.camera_hz, "rate of near and low camera; without it the scenario's")
       ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));
+  rink->add_option("--skip-hz", options.skip_hz, "rate of the skip's cameras")
+      ->capture_default_str()
+      ->check(CLI::Validator(between(0.5, 200.0), "0.5 to 200.0"));
   rink->add_option("--truth", options.truth, "file to which what truly happens is appended, a JSON object a line");
   rink->footer(
       "Example:\n"
       "  hogline rink --rig config/rigs/thrower.yaml --camera-hz 15 --truth truth.jsonl\n"
-      "A line `again` on its stdin sets the robot up for the next throw, its devices switched off and on; `quit` ends\n"
-      "it. doc/programs.md has the lines that it serves.\n"
+      "A line `again` on its stdin puts the robot back into the hack with the next stone; `quit` ends it.\n"
+      "doc/programs.md has the lines that it serves.\n"
       "Exit status: 0 it was told to end, 2 wrong use or configuration, 3 something outside failed (a port).");
   rink->callback([kept, &chosen] { chosen = [kept] { return run_rink(*kept); }; });
 }

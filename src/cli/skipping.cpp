@@ -4,6 +4,7 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/number_checks.hpp"
+#include "src/live_skip_command.hpp"
 #include "src/skip/skip_scene.hpp"
 #include "src/skip/skip_set.hpp"
 #include "src/skip_command.hpp"
@@ -38,15 +39,28 @@ void add_skip(CLI::App& app, Chosen& chosen) {
   skip->add_option("--out", options.out, "folder for result.json, trajectory.csv and above.png")->capture_default_str();
   skip->add_option("--record", options.record, "folder for the pictures that were looked at, for `hogline track`");
   skip->add_flag("--json", options.json_only, "print nothing but the JSON object");
+  const auto live = std::make_shared<bool>(false);
+  auto* rig = skip->get_option("--rig");
+  auto* stays = skip->add_flag("--live", *live, "no simulation: stay, and be the skip whose devices the rig names");
+  stays->needs(rig);
+  for (const char* simulated : {"--scenario", "--throw", "--seed", "--number", "--oracle", "--unannounced", "--far-hz",
+                                "--near-hz", "--ice", "--out", "--record", "--json"}) {
+    stays->excludes(skip->get_option(simulated));
+  }
   skip->footer(
       "Examples:\n"
       "  hogline skip --throw double --seed 7 --oracle --out out/skip\n"
       "  hogline skip --throw draw --far-hz 10 --near-hz 10 --ice sheet4.yaml\n"
-      "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves.\n"
+      "  hogline skip --live --rig config/rigs/skip_live.yaml\n"
+      "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves. With --live it "
+      "is\n"
+      "the robot's own program: THE HEAD MOVES when `begin` is said on its stdin (doc/programs.md).\n"
       "doc/skip.md says what the JSON object holds.\n"
       "Exit status: 0 the throw was followed to its end, 1 it was not (the reason says why), 2 wrong use or\n"
       "configuration, 3 something outside failed (a disk).");
-  skip->callback([kept, &chosen] { chosen = [kept] { return run_skip(*kept); }; });
+  skip->callback([kept, live, &chosen] {
+    chosen = [kept, live] { return *live ? run_live_skip({kept->rig}) : run_skip(*kept); };
+  });
 }
 
 void add_skips(CLI::App& app, Chosen& chosen) {

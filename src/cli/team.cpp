@@ -66,6 +66,7 @@ void add_demo(CLI::App& app, Chosen& chosen) {
   const auto kept = std::make_shared<TurnOptions>();
   TurnOptions& options = *kept;
   options.team.seer = "rendered";
+  options.team.seed = 3;  // a take-out
   options.out = "out/demo";
   auto* demo = app.add_subcommand("demo", "one turn of both robots in rendered pictures, with a report");
   add_turn_options(demo, options);

@@ -87,6 +87,10 @@ hw::TwoAxisHeadConfig read_head(const Section& s, const hw::TwoWheelDriveConfig&
   const auto refuse = [&document](const std::string& what) {
     throw ConfigError(document.file, document.line_of("head"), "head", "", what);
   };
+  if (s.has("timing")) {
+    if (wheels.left.node != 0) refuse("timing: the wheels' holds for the head too");
+    h.timing = read_timing(s.section("timing"));
+  }
   if (const auto error = hw::config_error(h)) refuse(*error);
   for (const std::uint8_t node : {h.pan.identity.node, h.tilt.identity.node}) {
     if (node == wheels.left.node || node == wheels.right.node)

@@ -10,8 +10,6 @@ hw::link::LinkConfig read_link(const Section& s, const Document& document) {
   hw::link::LinkConfig link;
   link.robot = s.word("robot");
   link.peers = s.raw("peers").get<std::vector<std::string>>();
-  if (s.has("commander")) link.commander = s.word("commander");
-  if (link.commander.empty() && link.peers.size() == 1) link.commander = link.peers.front();
   link.domain = static_cast<std::uint32_t>(s.integer("domain"));
   link.interface = s.word("interface");
   if (s.has("addresses")) link.addresses = s.raw("addresses").get<std::vector<std::string>>();
@@ -20,10 +18,6 @@ hw::link::LinkConfig read_link(const Section& s, const Document& document) {
   if (std::ranges::find(link.peers, link.robot) != link.peers.end()) {
     throw ConfigError(document.file, document.line_of("link.peers"), "link.peers", link.robot,
                       "must not name the robot itself");
-  }
-  if (!link.commander.empty() && std::ranges::find(link.peers, link.commander) == link.peers.end()) {
-    throw ConfigError(document.file, document.line_of("link.commander"), "link.commander", link.commander,
-                      "must be one of link.peers");
   }
   if (link.interface != "lo" && link.addresses.empty()) {
     throw ConfigError(document.file, document.line_of("link"), "link.addresses", "",

@@ -4,7 +4,6 @@
 
 #include "src/config/config_error.hpp"
 #include "src/live/process.hpp"
-#include "src/throwing/rink_of_rig.hpp"
 
 namespace hogline {
 namespace {
@@ -22,76 +21,108 @@ int modbus_port_of(const config::ThrowerRig& rig) {
                     "must be 127.0.0.1: the simulated rink serves this machine alone");
 }
 
-std::string segment_of(const config::ThrowerRig& rig, const std::string& camera) {
-  const auto source = rig.rig.source(camera);
+std::string segment_of(const config::Rig& rig, const std::string& camera) {
+  const auto source = rig.source(camera);
   if (const auto* shared = std::get_if<config::SharedMemorySource>(&source.device)) return shared->segment;
-  throw ConfigError(rig.rig.file, 0, "cameras." + camera + ".source", "",
+  throw ConfigError(rig.file, 0, "cameras." + camera + ".source", "",
                     "must be shared_memory: that is where the simulated rink puts its pictures");
 }
 
 }  // namespace
 
-LiveRink::View::View(hw::sim::RenderedCamera rendered, const std::string& segment, const hw::FrameRingShape& shape,
-                     std::uint64_t session, const std::atomic<Stamp>& world)
-    : camera(std::move(rendered)),
-      writer(segment, shape, session),
-      thread([this, &world](const std::stop_token& stop) { render(*this, world, stop); }) {}
+LiveRink::View::View(hw::sim::RenderedCamera& rendered, const std::string& segment, const hw::FrameRingShape& shape,
+                     const LiveRink& rink)
+    : camera(rendered),
+      writer(segment, shape, static_cast<std::uint64_t>(rink.now().time_since_epoch().count())),
+      thread([this, &rink](const std::stop_token& stop) { rink.render(*this, stop); }) {}
 
-LiveRink::LiveRink(const config::ThrowerRig& rig, const hw::sim::Scenario& scenario, TruthLog& log, Stamp now)
-    : scenario_(completed(scenario, rig)),
-      rink_(rink_config(rig, scenario_), now),
-      bus_(rig.rig, now),
+LiveRink::LiveRink(const config::ThrowerRig& rig, const std::optional<config::SkipRig>& skip,
+                   const hw::sim::Scenario& scenario, TruthLog& log, Stamp now)
+    : robot_(rig, scenario, 1),
+      ahead_(now - robot_.rink().now()),
       gyro_line_(rig.gyro_port.device),
       log_(log),
-      world_(now) {
-  rink_.modbus().serve_tcp(modbus_port_of(rig));
-  add_view(rig, "near");
-  add_view(rig, "low");
+      world_(robot_.rink().now()) {
+  robot_.rink().modbus().serve_tcp(modbus_port_of(rig));
+  add_view(rig.rig, "near", robot_.near_camera());
+  add_view(rig.rig, "low", robot_.low_camera());
+  buses_.emplace_back(rig.rig, robot_.rink().can(), now);
+  if (skip) {
+    skip_.emplace(*skip, scenario, 1);
+    sheet_.emplace(robot_.rink(), skip_->rink(), scenario.robot, scenario.seed);
+    add_view(skip->rig, "near", skip_->near_camera());
+    add_view(skip->rig, "far", skip_->far_camera());
+    buses_.emplace_back(skip->rig, skip_->rink().can(), now);
+  }
   log_.start(now);
-  log_.sample(rink_.truth());
+  log_.sample(robot_.rink().truth(), now);
 }
 
 LiveRink::~LiveRink() = default;
 
-void LiveRink::add_view(const config::ThrowerRig& rig, const char* name) {
-  const vision::CameraSetup& setup = rig.rig.camera(name);
-  const bool near = std::string_view(name) == "near";
-  const hw::FrameRingShape shape{.width_px = static_cast<std::uint32_t>(setup.intrinsics.width_px),
-                                 .height_px = static_cast<std::uint32_t>(setup.intrinsics.height_px),
+void LiveRink::add_view(const config::Rig& rig, const char* name, hw::sim::RenderedCamera& camera) {
+  const vision::Intrinsics& lens = rig.camera(name).intrinsics;
+  const hw::FrameRingShape shape{.width_px = static_cast<std::uint32_t>(lens.width_px),
+                                 .height_px = static_cast<std::uint32_t>(lens.height_px),
                                  .channels = 3};
-  const auto session = static_cast<std::uint64_t>(rink_.start().time_since_epoch().count());
-  views_.push_back(std::make_unique<View>(near ? hw::sim::near_camera(rink_, scenario_, camera_rig(setup), 1)
-                                               : hw::sim::low_camera(rink_, scenario_, camera_rig(setup), 1),
-                                          segment_of(rig, name), shape, session, world_));
+  views_.push_back(std::make_unique<View>(camera, segment_of(rig, name), shape, *this));
 }
 
 // Pictures that nobody asks for are not rendered. The beat goes on while a picture is: it takes less than any limit.
-void LiveRink::render(View& view, const std::atomic<Stamp>& world, const std::stop_token& stop) {
+void LiveRink::render(View& view, const std::stop_token& stop) const {
   run_as_others();
   while (!stop.stop_requested()) {
     const Stamp now = std::chrono::steady_clock::now();
     view.writer.beat(now);
-    const auto frame = view.writer.wanted(now, asked_lately) ? view.camera.latest(world.load()) : std::nullopt;
-    if (frame) view.writer.write(*frame);
+    auto frame = view.writer.wanted(now, asked_lately) ? view.camera.latest(world_.load()) : std::nullopt;
+    if (frame) {
+      frame->stamp += ahead_;
+      view.writer.write(*frame);
+    }
     std::this_thread::sleep_for(render_pause);
   }
 }
 
+void LiveRink::BusEnd::listen(Stamp now) {
+  bus.step(now);
+  while (const auto received = bus.bus().receive()) arrived.push_back(*received);
+}
+
+void LiveRink::BusEnd::deliver(Stamp until) {
+  for (; !arrived.empty() && arrived.front().stamp <= until; arrived.pop_front()) rink.send(arrived.front().frame);
+}
+
+void LiveRink::BusEnd::answer() {
+  while (const auto said = rink.receive()) static_cast<void>(bus.bus().send(said->frame));
+}
+
 void LiveRink::pass(Stamp now) {
-  bus_.step(now);
-  while (const auto received = bus_.bus().receive()) arrived_.push_back(*received);
-  if (const std::string letters = gyro_line_.read(); !letters.empty()) rink_.gyro().write(letters);
-  while (rink_.now() + world_step <= now) exchange();
-  world_ = rink_.now();
-  gyro_line_.write(rink_.read_gyro());
+  hw::sim::Rink& rink = robot_.rink();
+  for (BusEnd& bus : buses_) bus.listen(now);
+  if (const std::string letters = gyro_line_.read(); !letters.empty()) rink.gyro().write(letters);
+  while (this->now() + world_step <= now) exchange();
+  world_ = rink.now();
+  gyro_line_.write(rink.read_gyro());
 }
 
 void LiveRink::exchange() {
-  for (; !arrived_.empty() && arrived_.front().stamp <= rink_.now(); arrived_.pop_front())
-    rink_.can().send(arrived_.front().frame);
-  rink_.step(world_step);
-  while (const auto said = rink_.can().receive()) static_cast<void>(bus_.bus().send(said->frame));
-  log_.sample(rink_.truth());
+  for (BusEnd& bus : buses_) bus.deliver(now());
+  sheet_ ? sheet_->step(world_step) : robot_.rink().step(world_step);
+  for (BusEnd& bus : buses_) bus.answer();
+  log_.sample(robot_.rink().truth(), now());
+}
+
+bool LiveRink::put_back() {
+  if (robot_moves(robot_.rink().truth())) return false;
+  if (sheet_ && sheet_->stone_runs()) return false;
+  team_ = 1 - team_;
+  const hw::sim::RobotScenario& start = robot_.scenario().robot;
+  if (sheet_) {
+    sheet_->put_back(team_);
+  } else {
+    robot_.rink().put_back({start.start_x_m, start.start_y_m, start.start_yaw_rad}, team_, 0.0);
+  }
+  return true;
 }
 
 }  // namespace hogline

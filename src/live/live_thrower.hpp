@@ -1,5 +1,5 @@
-// A thrower that stays: it waits for orders over the team's link, throws them, tells when the stone is free, and after
-// each throw or fault stands without power until its operator arms it again.
+// A thrower that stays: a member of the team (ThrowerMember) whose looks go on in a thread of their own, and whose
+// operator arms it.
 //
 // Arming is pressing the switch: it must have been seen free and then held. An arming is good for one throw. Whatever
 // goes wrong (a device, a silent peer, a called stop, the switch let go) ends it, and nothing moves before the next
@@ -10,12 +10,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "hw/link/order_gate.hpp"
-#include "src/config/thrower_rig.hpp"
-#include "src/live/team_post.hpp"
-#include "src/throwing/thrower_loop.hpp"
+#include "src/team/thrower_member.hpp"
 #include "src/throwing/vision_thread.hpp"
 
 namespace hogline {
@@ -27,12 +23,12 @@ const char* to_string(LivePhase phase);
 /// Used by one thread, which also steps the devices through it.
 class LiveThrower {
  public:
-  /// Who looks at the pictures of one throw.
+  /// Who looks at the pictures: begins anew with each throw.
   using MakeSeer = std::function<std::unique_ptr<SheetSeer>()>;
   /// Told what happens, in a word and in words.
   using Tell = std::function<void(const char* event, const std::string& what)>;
 
-  /// The rig has a link. Devices, link and clock must outlive it. Throws ConfigError where the rig names no commander.
+  /// Devices, link and clock must outlive it.
   LiveThrower(const config::ThrowerRig& rig, const ThrowerDevices& devices, hw::TeamLink& link, MakeSeer make_seer,
               Tell tell);
   ~LiveThrower();
@@ -42,63 +38,39 @@ class LiveThrower {
   /// One control period. `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
   /// As ThrowerLoop has them.
-  std::optional<Stamp> release_due() const;
-  void let_go(Stamp now);
-  /// No order is taken any more, and a throw that is under way is ended: stop, with the stone held.
-  void end(const std::string& why);
+  std::optional<Stamp> release_due() const { return member_->release_due(); }
+  void let_go(Stamp now) { member_->let_go(now); }
+  /// The switch counts as let go from now on: a throw that is under way stops, with the stone held.
+  void end();
 
   LivePhase phase() const { return phase_; }
-  /// Nothing moves, and nothing is about to.
-  bool at_rest() const { return phase_ != LivePhase::throwing; }
 
  private:
-  struct Throw;
+  class ArmedSwitch;
+  class FreshSeer;
 
+  void watch_throw();
   void watch_switch(Stamp now);
-  bool held(Stamp now) const;
-  void step_devices(Stamp now);
-  void step_throw(Stamp now, Duration dt);
   void step_arming(Stamp now);
-  void watch_armed(Stamp now);
-  void hear(const hw::ReceivedMessage& received, Stamp now);
-  void take_order(const hw::ShotOrderMessage& order, Stamp now);
-  std::optional<std::string> not_now(const hw::ShotOrderMessage& order, Stamp now) const;
-  void begin_throw(const hw::ShotOrderMessage& order, Stamp now);
-  void tell_release(Stamp now);
-  void end_throw();
-  void disarm(const std::string& why);
-  void rearm_devices();
-  std::optional<std::string> not_ready(Stamp now) const;
-  void publish(Stamp now);
-  hw::ThrowerPhase wire_phase() const;
+  std::string not_ready(Stamp now) const;
   void enter(LivePhase phase, const std::string& why);
 
-  config::ThrowerRig rig_;
-  ThrowerDevices devices_;
-  TeamPost post_;
-  hw::link::OrderGate gate_;
-  MakeSeer make_seer_;
   Tell tell_;
+  hw::Gyro& gyro_;
+  hw::Drive& drive_;
+  std::unique_ptr<ArmedSwitch> switch_;
+  std::unique_ptr<FreshSeer> seer_;
+  VisionThread looking_;
+  std::unique_ptr<ThrowerMember> member_;
 
   LivePhase phase_ = LivePhase::disarmed;
-  std::string reason_;      ///< why it stands as it stands; empty: nothing to say
-  bool fault_ = false;      ///< `reason_` is one
   bool seen_free_ = false;  ///< the switch, since arming last ended
+  bool ended_ = false;
   Stamp arming_since_{};
-  Stamp next_rearm_{};
-  std::uint64_t order_serial_ = 0;
-  std::optional<std::string> ended_;  ///< why no order is taken any more
-  std::unique_ptr<Throw> throw_;
-
-  struct Published {
-    hw::ThrowerPhase phase{};
-    bool armed = false;
-    std::uint64_t order_serial = 0;
-    std::string reason;
-    bool operator==(const Published&) const = default;
-  };
-  Published published_;
-  Stamp published_at_{};
+  Stamp next_load_{};
+  std::optional<servo::ThrowerState> told_state_;
+  std::string told_abort_;
+  bool told_release_ = false;
 };
 
 }  // namespace hogline

@@ -1,6 +1,5 @@
 #include "src/live/process.hpp"
 
-#include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/socket.h>
@@ -10,9 +9,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+
+#include "src/live/line_writer.hpp"
 
 namespace hogline {
 namespace {
@@ -20,6 +20,11 @@ namespace {
 volatile std::sig_atomic_t end_asked = 0;
 
 void note_end(int) { end_asked = 1; }
+
+LineWriter& told() {
+  static LineWriter lines(STDOUT_FILENO);
+  return lines;
+}
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -31,9 +36,10 @@ std::string variable(const char* name) {
 void tell(std::string_view who, std::string_view event, std::string_view what) {
   const double t_s = seconds(std::chrono::steady_clock::now().time_since_epoch());
   const nlohmann::ordered_json line{{"t_s", t_s}, {"who", who}, {"event", event}, {"what", what}};
-  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  std::fflush(stdout);
+  told().post(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
+
+void pump_told() { told().pump(); }
 
 void listen_for_the_end() {
   struct sigaction action {};
@@ -70,6 +76,7 @@ ServiceManager::~ServiceManager() {
 void ServiceManager::ready(const std::string& status) { say("READY=1\nSTATUS=" + status); }
 
 void ServiceManager::alive(Stamp now) {
+  pump_told();
   if (period_ <= Duration::zero() || now < next_) return;
   next_ = now + period_;
   say("WATCHDOG=1");

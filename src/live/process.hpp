@@ -9,7 +9,9 @@
 
 namespace hogline {
 
-/// One line of JSON on stdout: {"t_s": steady clock, "who", "event", "what"}; flushed.
+/// One line of JSON on stdout: {"t_s": steady clock, "who", "event", "what"}; it waits for nothing. Called by one
+/// thread; the last lines leave with the next call of either, or when the program ends.
+void pump_told();
 void tell(std::string_view who, std::string_view event, std::string_view what);
 
 /// SIGTERM and SIGINT ask the program to end. SIGPIPE is ignored. To be called before any thread is made.

@@ -28,42 +28,41 @@ bool robot_moves(const hw::sim::Truth& truth) {
          std::abs(truth.right_wheel_radps) > resting_wheel_radps;
 }
 
-TruthLog::TruthLog(const std::string& path) {
+TruthLog::File::File(const std::string& path) {
   if (path.empty()) return;
-  file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file_ < 0) throw std::runtime_error(path + ": " + std::generic_category().message(errno));
+  descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor < 0) throw std::runtime_error(path + ": " + std::generic_category().message(errno));
 }
 
-TruthLog::~TruthLog() {
-  if (file_ >= 0) close(file_);
+TruthLog::File::~File() {
+  if (descriptor >= 0) close(descriptor);
 }
 
-void TruthLog::write(const std::string& line) const {
-  if (file_ >= 0 && ::write(file_, line.data(), line.size()) < 0) return;  // a full disk is no reason to stop the world
-}
+TruthLog::TruthLog(const std::string& path) : file_(path), lines_(file_.descriptor) {}
 
 void TruthLog::start(Stamp now) {
   last_ = Stamp{};
-  write(fmt::format("{{\"start_ns\": {}}}\n", now.time_since_epoch().count()));
+  lines_.post(fmt::format("{{\"start_ns\": {}}}\n", now.time_since_epoch().count()));
 }
 
-void TruthLog::sample(const hw::sim::Truth& truth) {
-  if (file_ < 0) return;
+void TruthLog::sample(const hw::sim::Truth& truth, Stamp now) {
+  if (file_.descriptor < 0) return;
+  lines_.pump();
   const bool arm_moves = truth.arm_unfolded != last_arm_;
   const bool moves = robot_moves(truth) || arm_moves;
   const bool changed = truth.held != last_held_ || truth.release.has_value() != last_released_;
-  if (!changed && truth.stamp - last_ < (moves ? moving_period : resting_period)) return;
-  last_ = truth.stamp;
+  if (!changed && now - last_ < (moves ? moving_period : resting_period)) return;
+  last_ = now;
   last_held_ = truth.held;
   last_released_ = truth.release.has_value();
   last_arm_ = truth.arm_unfolded;
-  write(
+  lines_.post(
       fmt::format("{{\"t_ns\": {}, \"moves\": {}, \"arm_moves\": {}, \"speed_mps\": {:.4f}, \"yaw_radps\": {:.4f}, "
                   "\"x_m\": {:.4f}, \"y_m\": {:.4f}, \"yaw_rad\": {:.5f}, \"held\": {}, \"released\": {}, "
                   "\"stone_mps\": {:.4f}, \"arm\": {:.3f}}}\n",
-                  truth.stamp.time_since_epoch().count(), robot_moves(truth), arm_moves, speed_of(truth),
-                  truth.twist.yaw_radps, truth.body.x_m, truth.body.y_m, truth.body.yaw_rad, truth.held,
-                  truth.release.has_value(), std::hypot(truth.stone.vx_mps, truth.stone.vy_mps), truth.arm_unfolded));
+                  now.time_since_epoch().count(), robot_moves(truth), arm_moves, speed_of(truth), truth.twist.yaw_radps,
+                  truth.body.x_m, truth.body.y_m, truth.body.yaw_rad, truth.held, truth.release.has_value(),
+                  std::hypot(truth.stone.vx_mps, truth.stone.vy_mps), truth.arm_unfolded));
 }
 
 }  // namespace hogline

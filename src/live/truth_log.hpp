@@ -5,28 +5,36 @@
 #include <string>
 
 #include "hw/sim/truth.hpp"
+#include "src/live/line_writer.hpp"
 
 namespace hogline {
 
-/// Each line is handed to the kernel whole: a program that is killed loses none that it wrote. A sample every 5 ms
+/// Written by a thread of its own: a program that is killed loses its last tens of milliseconds. A sample every 5 ms
 /// while anything of the robot moves, and whenever what holds or lets go changes; every 0.2 s otherwise.
 /// doc/programs.md has the keys.
 class TruthLog {
  public:
   /// Appends; an empty path writes nothing. Throws std::runtime_error.
   explicit TruthLog(const std::string& path);
-  ~TruthLog();
   TruthLog(const TruthLog&) = delete;
   TruthLog& operator=(const TruthLog&) = delete;
 
   /// The rink begins anew.
   void start(Stamp now);
-  void sample(const hw::sim::Truth& truth);
+  /// `now`: the truth's moment, in the steady clock.
+  void sample(const hw::sim::Truth& truth, Stamp now);
 
  private:
-  void write(const std::string& line) const;
+  struct File {
+    explicit File(const std::string& path);
+    ~File();
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    int descriptor = -1;
+  };
 
-  int file_ = -1;
+  File file_;
+  LineWriter lines_;  // after it: it writes what is left when it goes
   Stamp last_{};
   bool last_held_ = false;
   bool last_released_ = false;

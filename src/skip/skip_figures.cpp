@@ -63,6 +63,13 @@ void judge_tracking(const SkipOutcome& outcome, SkipFigures& figures) {
     const auto truth = truth_at(outcome, seconds(p.stamp - *outcome.released));
     if (truth) figures.trajectory.add(truth->x_m, truth->y_m, std::hypot(p.x_m - truth->x_m, p.y_m - truth->y_m));
   }
+  const auto& result = outcome.report.result;
+  if (result.rotation.ok) {
+    const auto truth = truth_at(outcome, seconds(result.fit.start - *outcome.released));
+    const double spin = truth ? truth->spin_radps : outcome.stones.back().start.motion.spin_radps;
+    figures.spin_error_radps = result.rotation.spin_radps - spin;
+    figures.spin_sigma_radps = result.rotation.sigma_radps;
+  }
   const auto& times = outcome.report.result.hog_to_hog_s;
   if (times && outcome.true_hog_to_hog_s) figures.hog_to_hog_error_s = times->value - *outcome.true_hog_to_hog_s;
 }

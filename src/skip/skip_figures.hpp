@@ -37,8 +37,10 @@ struct SkipFigures {
   RegionErrors trajectory;       ///< as reported, up to the first collision
   RegionErrors live;             ///< as known at the moment
   std::optional<double> hog_to_hog_error_s;
-  std::vector<double> rest_errors_m;  ///< of the stones that moved and lie in play
-  int missed_collisions = 0;          ///< such as left the struck stone 0.15 m/s
+  std::optional<double> spin_error_radps;  ///< of the thrown stone's rate of turn, where the handle told it
+  double spin_sigma_radps = 0.0;           ///< as reported with it
+  std::vector<double> rest_errors_m;       ///< of the stones that moved and lie in play
+  int missed_collisions = 0;               ///< such as left the struck stone 0.15 m/s
   int invented_collisions = 0;
   int true_collisions = 0;
   int swaps = 0;        ///< stones whose end is reported for another

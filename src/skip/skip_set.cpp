@@ -51,6 +51,9 @@ struct Sum {
   RegionErrors live;
   RootMeanSquare hog_to_hog_s;
   double worst_hog_to_hog_s = 0.0;
+  RootMeanSquare spin_radps;
+  RootMeanSquare spin_sigmas;
+  double worst_spin_radps = 0.0;
   RootMeanSquare rest_m;
   double worst_rest_m = 0.0;
   int collisions = 0;
@@ -71,6 +74,11 @@ struct Sum {
     if (f.hog_to_hog_error_s) {
       hog_to_hog_s.add(*f.hog_to_hog_error_s);
       worst_hog_to_hog_s = std::max(worst_hog_to_hog_s, std::abs(*f.hog_to_hog_error_s));
+    }
+    if (f.spin_error_radps) {
+      spin_radps.add(*f.spin_error_radps);
+      spin_sigmas.add(*f.spin_error_radps / f.spin_sigma_radps);
+      worst_spin_radps = std::max(worst_spin_radps, std::abs(*f.spin_error_radps));
     }
     for (const double e : f.rest_errors_m) rest_m.add(e), worst_rest_m = std::max(worst_rest_m, e);
     collisions += f.true_collisions;
@@ -113,6 +121,9 @@ std::string table(const Sum& s, const SkipSet& set, const SkipRequest& example) 
       mm(s.trajectory.far_hog_m) + " / " + mm(s.live.far_hog_m));
   row("hog to hog, RMS / worst [s]", "0.05",
       fmt::format("{:.3f} / {:.3f}", s.hog_to_hog_s.value(), s.worst_hog_to_hog_s));
+  row("rate of turn, measured in / RMS / worst [rad/s] / RMS in sigmas", "-",
+      fmt::format("{} of {} / {:.3f} / {:.3f} / {:.1f}", s.spin_radps.count, s.throws, s.spin_radps.value(),
+                  s.worst_spin_radps, s.spin_sigmas.value()));
   row("resting place of stones that moved, RMS / worst [mm]", "15",
       mm(s.rest_m) + fmt::format(" / {:.0f}", 1000.0 * s.worst_rest_m));
   row("collisions missed", "0", fmt::format("{} of {}", s.missed, s.collisions));
@@ -123,7 +134,9 @@ std::string table(const Sum& s, const SkipSet& set, const SkipRequest& example) 
 
 std::string csv_header() {
   return "number,kind,seed,announced,ok,aim_rms_deg,aim_worst_deg,settle_s,trajectory_house_m,trajectory_near_hog_m,"
-         "trajectory_far_hog_m,live_house_m,live_near_hog_m,live_far_hog_m,hog_to_hog_error_s,worst_rest_m,collisions,"
+         "trajectory_far_hog_m,live_house_m,live_near_hog_m,live_far_hog_m,hog_to_hog_error_s,spin_error_radps,spin_"
+         "sigma_radps,worst_rest_m,"
+         "collisions,"
          "missed,invented,swaps,wrong_fates,reason\n";
 }
 
@@ -134,12 +147,15 @@ std::string csv_line(int number, const SkipRequest& request, const SkipFigures& 
   std::string reason = f.failed;
   std::replace(reason.begin(), reason.end(), ',', ';');
   return fmt::format(
-      "{},{},{},{},{},{:.4f},{:.4f},{:.2f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},{},{},{},{},{},{}\n",
+      "{},{},{},{},{},{:.4f},{:.4f},{:.2f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{:.4f},{},{},{},{},{},{}"
+      "\n",
       number, throw_kind_names()[static_cast<std::size_t>(kind_of(number))], request.scenario.seed,
       request.announced ? 1 : 0, f.failed.empty() ? 1 : 0, f.aim_deg.value(), f.worst_aim_deg, settle_s,
       f.trajectory.house_m.value(), f.trajectory.near_hog_m.value(), f.trajectory.far_hog_m.value(),
       f.live.house_m.value(), f.live.near_hog_m.value(), f.live.far_hog_m.value(),
-      f.hog_to_hog_error_s ? fmt::format("{:.4f}", *f.hog_to_hog_error_s) : "", rest_m, f.true_collisions,
+      f.hog_to_hog_error_s ? fmt::format("{:.4f}", *f.hog_to_hog_error_s) : "",
+      f.spin_error_radps ? fmt::format("{:.4f}", *f.spin_error_radps) : "",
+      f.spin_error_radps ? fmt::format("{:.4f}", f.spin_sigma_radps) : "", rest_m, f.true_collisions,
       f.missed_collisions, f.invented_collisions, f.swaps, f.wrong_fates, reason);
 }
 

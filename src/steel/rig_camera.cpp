@@ -6,6 +6,7 @@
 #include "hw/aravis/aravis_camera.hpp"
 #include "hw/files/recorded_camera.hpp"
 #include "hw/shared_frames/shared_camera.hpp"
+#include "src/config/config_error.hpp"
 
 namespace hogline {
 namespace {
@@ -62,6 +63,18 @@ std::unique_ptr<hw::Camera> open_rig_camera(const config::Rig& rig, const std::s
                    return std::make_unique<hw::files::VideoCamera>(device, v.path, v.rate_hz, size, clock.now());
                  }},
       rig.source(name).device);
+}
+
+std::unique_ptr<hw::Camera> open_real_camera(const config::Rig& rig, const std::string& name, const hw::Clock& clock) {
+  auto camera = open_rig_camera(rig, name, clock);
+  if (camera) return camera;
+  throw config::ConfigError(rig.file, 0, "cameras." + name + ".source", "simulated",
+                            "must be shared_memory, aravis, folder or video: here nobody renders pictures");
+}
+
+hw::CameraWatch watch_of(const config::Rig& rig, const std::string& name) {
+  const config::CameraSource source = rig.source(name);
+  return {.name = name + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
 }
 
 std::string describe_source(const config::CameraSource& source) {

@@ -1,6 +1,5 @@
 #include "src/steel/steel_robot.hpp"
 
-#include "src/config/config_error.hpp"
 #include "src/steel/rig_camera.hpp"
 
 namespace hogline {
@@ -21,18 +20,6 @@ hw::ModbusWorkerConfig worker_config(const config::ThrowerRig& rig) {
           .order_age_limit = rig.thrower.ages.gripper};
 }
 
-std::unique_ptr<hw::Camera> real_camera(const config::Rig& rig, const std::string& name, const hw::Clock& clock) {
-  auto camera = open_rig_camera(rig, name, clock);
-  if (camera) return camera;
-  throw config::ConfigError(rig.file, 0, "cameras." + name + ".source", "simulated",
-                            "must be shared_memory, aravis, folder or video: here nobody renders pictures");
-}
-
-hw::CameraWatch watch_of(const config::Rig& rig, const std::string& name) {
-  const config::CameraSource source = rig.source(name);
-  return {.name = name + " camera", .max_age = source.max_age, .silence_limit = source.silence_limit};
-}
-
 }  // namespace
 
 SteelRobot::SteelRobot(const config::ThrowerRig& rig, const hw::Clock& clock)
@@ -44,8 +31,8 @@ SteelRobot::SteelRobot(const config::ThrowerRig& rig, const hw::Clock& clock)
       modbus_(worker_config(rig), clock),
       gyro_port_(rig.gyro_port),
       gyro_(gyro_port_, rig.gyro),
-      near_camera_(real_camera(rig.rig, "near", clock)),
-      low_camera_(real_camera(rig.rig, "low", clock)),
+      near_camera_(open_real_camera(rig.rig, "near", clock)),
+      low_camera_(open_real_camera(rig.rig, "low", clock)),
       near_checked_(*near_camera_, watch_of(rig.rig, "near")),
       low_checked_(*low_camera_, watch_of(rig.rig, "low")) {}
 

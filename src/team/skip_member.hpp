@@ -45,6 +45,8 @@ class SkipMember {
   /// Precondition: begun.
   const servo::Skip& skip() const { return loop_->skip(); }
   const SkipLoop* loop() const { return loop_.get(); }
+  /// Why no thrower is there to order from; empty while it is.
+  std::string missing(Stamp now) const { return link_.missing(now); }
 
   /// Precondition: has_looked(). `shot`: of the end, from 1; `team`: whose stone it is.
   void order(const servo::ShotOrder& order, std::uint32_t shot, Team team, Stamp now);

@@ -91,6 +91,18 @@ std::string figures_table(const TruthFigures& f, const std::vector<TurnRecord>& 
   return t;
 }
 
+std::string figures_json(const TruthFigures& f, const std::vector<TurnRecord>& records) {
+  double simulated_s = 0.0, wall_s = 0.0;
+  for (const TurnRecord& r : records) simulated_s += r.simulated_s, wall_s += r.wall_s;
+  const auto measures = std::ranges::count(f.disagreements, true, &Disagreement::a_measure);
+  return fmt::format(
+      "{{\"ends\":{},\"throws\":{},\"disagreements\":{},\"too_close_disagreements\":{},\"too_close_ends\":{},"
+      "\"given_away\":{},\"repeated\":{},\"remarked\":{},\"struck\":{},\"struck_wrong\":{},\"places\":{},"
+      "\"square_m2\":{},\"worst_m\":{},\"simulated_s\":{},\"wall_s\":{}}}\n",
+      f.ends, f.throws, f.disagreements.size() - static_cast<std::size_t>(measures), measures, f.measures, f.given_away,
+      f.repeated, f.unfollowed, f.collisions, f.struck_wrong, f.places, f.square_m2, f.worst_m, simulated_s, wall_s);
+}
+
 std::string ice_table(const std::vector<TurnRecord>& records) {
   constexpr std::array<int, 6> from{0, 1, 2, 4, 8, 16};
   std::string t = "| learnt from | stones | error RMS [m] | foretold sigma, mean [m] |\n|---|--:|--:|--:|\n";

@@ -16,6 +16,9 @@ std::string throw_row(const TurnRecord& record, int end, int shot);
 /// The figures in words: a Markdown table.
 std::string figures_table(const TruthFigures& figures, const std::vector<TurnRecord>& records);
 
+/// The same for programs: one JSON object.
+std::string figures_json(const TruthFigures& figures, const std::vector<TurnRecord>& records);
+
 /// How the foretold places of stones that met nothing came nearer to where they lay: a Markdown table by the number of
 /// throws that the ice had been learnt from.
 std::string ice_table(const std::vector<TurnRecord>& records);

@@ -56,7 +56,12 @@ void ThrowerMember::step(Stamp now, Duration dt) {
 
 void ThrowerMember::listen(Stamp now) {
   while (const auto received = link_.receive(now)) {
-    gate_.heard(hw::origin_of(received->message), received->received);
+    const hw::Origin& origin = hw::origin_of(received->message);
+    gate_.heard(origin, received->received);
+    if (origin.robot == "skip" && std::exchange(commander_session_, origin.session) != origin.session && !throwing()) {
+      order_serial_ = 0;  // its numbers begin anew
+      refused_.clear();
+    }
     if (const auto* order = std::get_if<hw::ShotOrderMessage>(&received->message)) take(*order, now);
     if (const auto* stop = std::get_if<hw::EmergencyStopMessage>(&received->message)) {
       emergency_ = stop->pressed ? "emergency stop by '" + stop->origin.robot + "': " + stop->reason : "";
@@ -105,6 +110,7 @@ void ThrowerMember::load() {
   clear(devices_.gyro, devices_.gyro.state().error);
   clear(devices_.near_camera, devices_.near_camera.error());
   clear(devices_.low_camera, devices_.low_camera.error());
+  emergency_.clear();
   loading_ = true;
 }
 
@@ -158,6 +164,7 @@ hw::ThrowerPhase ThrowerMember::phase() const {
   if (!over_) {
     const ThrowerState state = loop_->thrower().state();
     if (state < ThrowerState::run) return hw::ThrowerPhase::aligning;
+    if (loop_->thrower().abort_reason() && !loop_->thrower().released()) return hw::ThrowerPhase::stopped;
     return state < ThrowerState::brake ? hw::ThrowerPhase::running : hw::ThrowerPhase::released;
   }
   if (!loop_->device_errors().empty()) return hw::ThrowerPhase::fault;
@@ -171,7 +178,7 @@ void ThrowerMember::tell(Stamp now) {
   state.armed = devices_.operator_switch.state().held;
   state.order_serial = order_serial_;
   state.reason = refused_;
-  if (refused_.empty() && over_) state.reason = loop_->thrower().abort_reason().value_or("");
+  if (refused_.empty() && loop_) state.reason = loop_->thrower().abort_reason().value_or("");
   const bool changed = state.phase != told_.phase || state.order_serial != told_.order_serial ||
                        state.armed != told_.armed || state.reason != told_.reason;
   if (!changed && now < next_state_) return;

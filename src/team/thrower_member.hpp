@@ -30,11 +30,13 @@ class ThrowerMember {
   void let_go(Stamp now) { loop_->let_go(now); }
 
   /// The operator's word that the robot stands in its place and a stone lies between the jaws: latched errors are
-  /// cleared and the jaws close. Precondition: !throwing().
+  /// cleared, a stop that was called before is over, and the jaws close. Precondition: !throwing().
   void load();
   bool throwing() const { return loop_ && !over_; }
   /// Empty: an order would be thrown.
   std::string not_ready() const;
+  /// Why nobody is there to order or to follow a throw; empty while somebody is.
+  std::string missing(Stamp now) const { return link_.missing(now); }
   /// Of the throw under way, or of the last one.
   const ThrowerLoop* loop() const { return loop_.get(); }
   std::optional<Stamp> throw_began() const { return began_; }
@@ -61,6 +63,7 @@ class ThrowerMember {
   bool release_told_ = false;
   bool loading_ = false;
   std::uint64_t order_serial_ = 0;
+  std::uint64_t commander_session_ = 0;
   std::string refused_;  ///< why the last order was
   std::string emergency_;
   hw::ThrowerStateMessage told_;

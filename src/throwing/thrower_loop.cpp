@@ -14,19 +14,13 @@ namespace {
 // Devices that have not answered yet have the epoch as their stamp.
 bool heard(Stamp stamp) { return stamp != Stamp{}; }
 
-std::array<std::optional<hw::DeviceError>, 7> errors_of(const ThrowerDevices& devices,
-                                                        const std::optional<hw::DeviceError>& outside) {
-  return {outside,
-          devices.drive.state().error,
-          devices.gripper.state().error,
-          devices.arm.state().error,
-          devices.gyro.state().error,
-          devices.near_camera.error(),
-          devices.low_camera.error()};
+std::array<std::optional<hw::DeviceError>, 6> errors_of(const ThrowerDevices& devices) {
+  return {devices.drive.state().error, devices.gripper.state().error, devices.arm.state().error,
+          devices.gyro.state().error,  devices.near_camera.error(),   devices.low_camera.error()};
 }
 
-std::optional<std::string> first_error(const ThrowerDevices& devices, const std::optional<hw::DeviceError>& outside) {
-  for (const auto& error : errors_of(devices, outside)) {
+std::optional<std::string> first_error(const ThrowerDevices& devices) {
+  for (const auto& error : errors_of(devices)) {
     if (error) return fmt::format("{}: {}: {}", error->device, to_string(error->kind), error->what);
   }
   return std::nullopt;
@@ -109,7 +103,7 @@ void ThrowerLoop::step(Stamp now, Duration dt) {
 }
 
 void ThrowerLoop::note_errors() {
-  for (const auto& error : errors_of(devices_, outside_error_)) {
+  for (const auto& error : errors_of(devices_)) {
     const auto same = [&](const hw::DeviceError& e) { return e.device == error->device && e.since == error->since; };
     if (error && std::ranges::none_of(device_errors_, same)) device_errors_.push_back(*error);
   }
@@ -124,7 +118,7 @@ servo::ThrowerObservation ThrowerLoop::observe(Stamp now) const {
           .near_view = eyes_.near_view(),
           .low_view = eyes_.low_view(),
           .operator_switch = observe_switch(devices_.operator_switch.state()),
-          .device_error = first_error(devices_, outside_error_),
+          .device_error = first_error(devices_),
           .safety_stop = safety_stop()};
 }
 

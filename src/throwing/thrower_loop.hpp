@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "servo/safety/supervisor.hpp"
@@ -21,9 +20,6 @@ class ThrowerLoop {
   /// The operator's act, before the first step: without it nothing moves. Returns why it was refused; the first step
   /// then aborts the throw for that reason.
   std::optional<std::string> arm(Stamp now);
-  /// What else forbids to go on: another robot is silent, or has called a stop. It counts as a device's error, from the
-  /// next step on.
-  void set_outside_error(std::optional<hw::DeviceError> error) { outside_error_ = std::move(error); }
   /// `now` is the present time, `dt` the time since the last call.
   void step(Stamp now, Duration dt);
   /// A release that the last step ordered for a moment before the next one. Whoever steps the loop calls let_go() then;
@@ -56,7 +52,6 @@ class ThrowerLoop {
   std::string refusal_ = "not armed";
   std::optional<std::string> stopped_by_team_;
   std::vector<hw::DeviceError> device_errors_;
-  std::optional<hw::DeviceError> outside_error_;
   void apply_jaws(const servo::GripperCommand& command, Stamp now);
 
   bool releasing_ = false;

@@ -38,6 +38,19 @@ RC_GTEST_PROP(ShotAimingProperty, TheStoneStopsWhereItWasWanted, ()) {
   RC_ASSERT(std::hypot(rest.x_m - wish.x_m, rest.y_m - wish.y_m) < 2e-3);
 }
 
+RC_GTEST_PROP(ShotAimingProperty, ALineThroughTheHackLeadsThereToo, ()) {
+  const IceModel ice = ice_with(1e-3 * *rc::gen::inRange(850, 1200), 1e-3 * *rc::gen::inRange(600, 1100), 0.0);
+  const Place wish{1e-3 * *rc::gen::inRange(-1800, 1800), 1e-3 * *rc::gen::inRange(33000, 40000)};
+  ThrowerSkill skill = robot();
+  skill.line_through_hack = true;
+  const ShotAim aim = aim_shot({wish, *rc::gen::element(Curl::clockwise, Curl::counter_clockwise), {}}, skill, ice);
+  RC_ASSERT(aim.ok);
+  const Place from = release_place(skill, aim.order.heading_rad);
+  RC_ASSERT(std::abs(from.x_m + std::tan(aim.order.heading_rad) * from.y_m) < 1e-12);
+  const Rest rest = rest_of(released(aim.order, from), ice.estimate().factors());
+  RC_ASSERT(std::hypot(rest.x_m - wish.x_m, rest.y_m - wish.y_m) < 2e-3);
+}
+
 TEST(ShotAiming, TheStatedSpreadIsThatOfManyThrows) {
   const IceModel ice = ice_with(1.0, 0.9, 2e-4);
   const ShotAim aim = aim_shot({.rest = {0.0, far_tee_m}}, robot(), ice);

@@ -2,6 +2,7 @@
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
 import importlib.util
 import json
+import math
 import os
 import shutil
 import re
@@ -280,7 +281,7 @@ class Pose(unittest.TestCase):
         self.assertIn("run.csv:4", refused.stderr)
 
     def test_help_has_examples(self):
-        for command in ("pose", "throw", "demo", "doctor"):
+        for command in ("pose", "throw", "demo", "turn", "doctor"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn("Example", result.stdout)
@@ -451,7 +452,7 @@ class Game(unittest.TestCase):
         self.folder.cleanup()
 
     def game(self, *words):
-        return run("game", "--ends", "1", "--out", self.out, *words)
+        return run("game", "--outcome-model", "--ends", "1", "--out", self.out, *words)
 
     def test_an_end_is_played_and_written_down(self):
         result = self.game("--seed", "3")
@@ -487,6 +488,32 @@ class Game(unittest.TestCase):
             result = self.game("--team0", "dc:" + port)
             self.assertEqual(result.returncode, 3, result.stderr)
             self.assertIn("127.0.0.1:" + port, result.stderr)
+
+
+class Turn(unittest.TestCase):
+    def turn(self, folder, *words):
+        result = run("turn", "--seed", "3", "--out", folder, *words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_is_thrown_followed_and_told_and_the_same_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            told = self.turn(folder)
+            with open(os.path.join(folder, "turn.json"), encoding="utf-8") as f:
+                self.assertEqual(json.load(f), told)
+            for picture in ("above.png", "house.png", "overview.png"):
+                self.assertTrue(os.path.getsize(os.path.join(folder, picture)) > 1000, picture)
+            again = self.turn(folder)
+        self.assertEqual((told["ok"], told["attempts"], told["plan"]), (True, 1, "take out"))
+        self.assertLess(abs(told["release"]["against_truth"]["speed_error_mps"]), 0.03)
+        self.assertEqual([(s["team"], s["stone"]) for s in told["board"]], [(s["team"], s["stone"]) for s in told["true_board"]])
+        for seen, true in zip(told["board"], told["true_board"]):
+            self.assertLess(math.hypot(seen["x_m"] - true["x_m"], seen["y_m"] - true["y_m"]), 0.02)
+        self.assertEqual({**told, "wall_s": 0}, {**again, "wall_s": 0}, "the same seed is the same turn")
+
+    def test_wrong_uses(self):
+        for words in (["--stones", "16"], ["--seer", "somebody"], ["--strategist", "nobody"], ["--scenario", "none.yaml"]):
+            self.assertEqual(run("turn", *words).returncode, 2, words)
 
 
 if __name__ == "__main__":

@@ -149,14 +149,6 @@ StoneGroups StoneGroupFinder::find_unexplained(const cv::Mat& bgr, const WhiteLi
   return groups;
 }
 
-void StoneGroupFinder::find_whites(const WhiteLight& ice, int columns, int y) {
-  per_white_.clear();
-  for (int x = 0; x < columns; x += white_px) {
-    const auto white = ice.at(x + white_px / 2, y + white_px / 2);
-    per_white_.push_back({1.0F / white[0], 1.0F / white[1], 1.0F / white[2]});
-  }
-}
-
 void StoneGroupFinder::leave_out(const Band& band, const std::vector<cv::Point>& outline) {
   std::vector<cv::Point> steps;
   for (const cv::Point& p : outline) {
@@ -177,6 +169,14 @@ int StoneGroupFinder::part_begins(int number, int count) const {
     wanted -= cost;
   }
   return bands_[1].bottom;
+}
+
+void StoneGroupFinder::find_whites(const WhiteLight& ice, int columns, int y) {
+  per_white_.clear();
+  for (int x = 0; x < columns; x += white_px) {
+    const auto white = ice.at(x + white_px / 2, y + white_px / 2);
+    per_white_.push_back({1.0F / white[0], 1.0F / white[1], 1.0F / white[2]});
+  }
 }
 
 // In steps of `step` pixels, 1 where the mean of four pixels may be granite; with a margin of nothing about it.

@@ -87,9 +87,9 @@ class StoneGroupFinder {
   }
   void choose_bands(int bottom);
   int first_big_row() const;
-  void find_whites(const WhiteLight& ice, int columns, int y);
   void begin(const cv::Mat& bgr, StoneGroups& groups);
   void leave_out(const Band& band, const std::vector<cv::Point>& outline);
+  void find_whites(const WhiteLight& ice, int columns, int y);
   void find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
   void mark_centres(const Band& band, int columns, cv::Mat& centres);
   std::vector<cv::Rect> boxes_of(cv::Size picture) const;

@@ -43,7 +43,29 @@ void FarLevels::begin(const cv::Mat& bgr, int top, const ResponseCurve& response
   levels_[1].ice.emplace(levels_[1].bgr, response, 2 * first);
   levels_[0].ice = levels_[1].ice->in_smaller(0.5);
   levels_[2].ice = levels_[1].ice->in_smaller(2.0);
+  look_from(eMc, ice);
+  whole_ = true;
+}
+
+void FarLevels::go_on(const cv::Mat& bgr, const Pose& eMc, const Ice& ice) {
+  levels_[0].bgr = bgr;
+  look_from(eMc, ice);
+  whole_ = false;
+}
+
+void FarLevels::look_from(const Pose& eMc, const Ice& ice) {
   for (FarLevel& level : levels_) level.camera.emplace(*level.lens, eMc, ice);
+}
+
+void FarLevels::fill(int level, const cv::Rect& area) {
+  if (whole_ || level == 0) return;
+  cv::Mat& here = levels_[static_cast<std::size_t>(level)].bgr;
+  const cv::Rect inside = area & cv::Rect({0, 0}, here.size());
+  if (inside.empty()) return;
+  const cv::Rect twice(2 * inside.x, 2 * inside.y, 2 * inside.width, 2 * inside.height);
+  fill(level - 1, twice);
+  cv::Mat part = here(inside);
+  cv::resize(levels_[static_cast<std::size_t>(level - 1)].bgr(twice), part, part.size(), 0.0, 0.0, cv::INTER_AREA);
 }
 
 int FarLevels::level_at(double range_m, const Intrinsics& intrinsics) {

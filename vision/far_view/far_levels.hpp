@@ -32,8 +32,14 @@ class FarLevels {
 
   explicit FarLevels(const Intrinsics& intrinsics);
 
-  /// Takes up a picture, from row `top` down, and how the camera looked at it; it is used until the next one.
+  /// Takes up a picture, from row `top` down, and how the camera looked at it; it is used until the next one. The
+  /// smaller ones are made as a whole, and white ice is looked at.
   void begin(const cv::Mat& bgr, int top, const ResponseCurve& response, const Pose& eMc, const Ice& ice);
+
+  /// The same, but white ice is as it was, and of the smaller ones there is only what fill() asks for.
+  /// Precondition: begin() before.
+  void go_on(const cv::Mat& bgr, const Pose& eMc, const Ice& ice);
+  void fill(int level, const cv::Rect& area);
 
   /// Half the size: fine enough to search all of it.
   const FarLevel& middle() const { return levels_[1]; }
@@ -43,7 +49,10 @@ class FarLevels {
   static int level_at(double range_m, const Intrinsics& intrinsics);
 
  private:
+  void look_from(const Pose& eMc, const Ice& ice);
+
   std::array<FarLevel, count> levels_;
+  bool whole_ = false;  ///< nothing is left to fill
 };
 
 }  // namespace hogline::vision

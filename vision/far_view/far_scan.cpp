@@ -62,7 +62,7 @@ void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area, cons
   const auto farthest = picture.camera.project({0.0, area.max_y_m, z_m});
   const int top = farthest ? std::clamp(static_cast<int>(farthest->y() / step_px) - 2, 0, rows) : 0;
   first_row_ = top + (rows - top) * part.number / part.count;
-  last_row_ = top + (rows - top) * (part.number + 1) / part.count;
+  last_row_ = top + (rows - top) * std::min(part.number + part.parts, part.count) / part.count;
   rows_.assign(static_cast<std::size_t>(rows), {});
   base_row_ = last_row_;
   int end = first_row_;
@@ -77,7 +77,7 @@ void FarScan::plan_rows(const StonePicture& picture, const StoneArea& area, cons
 }
 
 // In steps, 1 where the picture may show granite; nothing of it beyond the picture.
-void FarScan::find_granite(const StonePicture& picture) {
+void FarScan::find_granite(const StonePicture& picture, const cv::Mat& twice) {
   const int columns = picture.bgr.cols / step_px;
   granite_.setTo(0);
   const int first = std::max(0, base_row_);
@@ -85,14 +85,19 @@ void FarScan::find_granite(const StonePicture& picture) {
   for (int r = first; r < last; ++r) {
     const int y = step_px * r;
     std::uint8_t* out = granite_.ptr<std::uint8_t>(r - base_row_) + margin;
-    const std::uint8_t* in = picture.bgr.ptr<std::uint8_t>(y);
+    const std::uint8_t* upper = twice.ptr<std::uint8_t>(2 * y);
+    const std::uint8_t* lower = twice.ptr<std::uint8_t>(2 * y + 1);
     for (int begin = 0; begin < columns; begin += white_run) {
       const int end = std::min(begin + white_run, columns);
       const auto white = picture.ice.at(step_px * (begin + end) / 2, y);
       const std::array<float, 3> scale{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]};
       for (int c = begin; c < end; ++c) {
-        const std::uint8_t* pixel = in + 3 * step_px * c;
-        const auto light = [&](std::size_t k) { return picture.response.linear(pixel[k]) * scale[k]; };
+        const int at = 6 * step_px * c;
+        const auto light = [&](int k) {
+          const int sum = upper[at + k] + upper[at + k + 3] + lower[at + k] + lower[at + k + 3];
+          const auto mean = static_cast<std::uint8_t>((sum + 2) / 4);
+          return picture.response.linear(mean) * scale[static_cast<std::size_t>(k)];
+        };
         out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
       }
     }
@@ -128,11 +133,12 @@ float FarScan::score(const Row& row, int c, int r) const {
   return body - 0.5F * std::min(left, right) - 0.2F * std::max(left, right) - 0.3F * under - 0.5F * handle;
 }
 
-const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const StoneArea& area, const Part& part) {
+const std::vector<FarPlace>& FarScan::find(const StonePicture& picture, const cv::Mat& twice, const StoneArea& area,
+                                           const Part& part) {
   places_.clear();
   plan_rows(picture, area, part);
   if (base_row_ >= last_row_) return places_;
-  find_granite(picture);
+  find_granite(picture, twice);
 
   const int columns = picture.bgr.cols / step_px;
   const int rows = last_row_;

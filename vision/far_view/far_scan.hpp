@@ -26,8 +26,11 @@ class FarScan {
   struct Part {
     int number = 0;
     int count = 1;
+    int parts = 1;  ///< so many of them, from this one on
   };
-  const std::vector<FarPlace>& find(const StonePicture& picture, const StoneArea& area, const Part& part);
+  /// `twice` is the same picture at twice its size: of `picture`, which need not be there, only the size counts.
+  const std::vector<FarPlace>& find(const StonePicture& picture, const cv::Mat& twice, const StoneArea& area,
+                                    const Part& part);
 
   static constexpr std::size_t most_places = 40;
 
@@ -50,7 +53,7 @@ class FarScan {
   static constexpr int planned_together = 4;
   void plan_rows(const StonePicture& picture, const StoneArea& area, const Part& part);
   Row plan_row(const StonePicture& picture, const StoneArea& area, int y) const;
-  void find_granite(const StonePicture& picture);
+  void find_granite(const StonePicture& picture, const cv::Mat& twice);
   float score(const Row& row, int c, int r) const;
   float share(int left, int top, int right, int bottom) const;
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "vision/far_view/far_view_impl.hpp"
 #include "vision/handle_angle.hpp"
@@ -13,10 +14,14 @@ constexpr double remembered_s = 1.0;         // a stone that is not seen again f
 constexpr double same_stone_m = 0.35;
 constexpr double along_per_across = 3.0;  // by which places are less sure along the line of sight
 constexpr double sure_px = 1.5;           // a prediction better than this needs no votes
-constexpr int parts = 4;                  // the picture is searched in so many pictures
+constexpr int parts = 8;                  // of the picture, each searched by itself
+constexpr int most_parts = 4;             // in one picture
+constexpr double round_s = 0.27;          // all of them have had their turn
+constexpr double refused_s = 0.7;         // for so long a place that is none is not asked again
+constexpr double light_s = 0.25;          // lamps do not change faster, unless stones are lost,
+constexpr double light_turn_rad = 0.008;  // nor does what a block of the picture shows of the ice
 constexpr double most_speed_mps = 5.0;
 constexpr double running_mps = 0.3;
-constexpr double handle_range_m = 26.0;   // farther away a grip is a few pixels high, and seen nearly from the side
 constexpr double handle_period_s = 0.06;  // a stone turns by a tenth of a turn in it
 
 }  // namespace
@@ -44,16 +49,30 @@ struct FarSequence::Impl {
   bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   bool sure(const StoneExpectation& expectation) const;
   std::vector<Predicted> predict(Stamp stamp, const std::vector<StoneExpectation>& expected) const;
-  FarSearch search(const std::vector<Predicted>& predicted, const FarArea& area);
+  FarScan::Part part_due(Stamp stamp);
+  FarSearch search(Stamp stamp, const std::vector<Predicted>& predicted, const FarArea& area);
+  void note_refused(Stamp stamp, const std::vector<JudgedStone>& stones);
+  void begin(const cv::Mat& image, Stamp stamp, const Pose& eMc, const FarArea& area);
   void remember(Stamp stamp, const std::vector<JudgedStone>& stones);
   void measure_handles(Stamp stamp, FarPercept& seen);
-  FarPlace place_of(const Eigen::Vector2d& place) const;
 
   FarView::Impl view;
   bool aimed = false;
   bool search_all = true;    ///< not only a part of the picture
   FarCorrection correction;  ///< of the last picture
   int part = 0;
+  Stamp last{};  ///< picture's
+  struct Refused {
+    Eigen::Vector2d place;
+    Stamp stamp{};
+  };
+  std::vector<Refused> refused;
+  std::vector<Eigen::Vector2d> asked;  ///< in this picture, where nobody knew of a stone
+  struct Lit {
+    Pose eMc;
+    Stamp stamp{};
+  };
+  std::optional<Lit> lit;  ///< when white ice was looked at last
   std::vector<Known> known;
   Stamp handles_at{};  ///< when handles' directions were asked for last
 };
@@ -122,41 +141,53 @@ std::vector<FarSequence::Impl::Predicted> FarSequence::Impl::predict(
   return all;
 }
 
-FarPlace FarSequence::Impl::place_of(const Eigen::Vector2d& place) const {
-  const SheetCamera& camera = *view.levels.middle().camera;
-  const Eigen::Vector3d eye = camera.eMc().translation();
-  FarPlace p;
-  p.range_m = (place - eye.head<2>()).norm();
-  const auto pixel = camera.project({place.x(), place.y(), view.setup.shape.handle_height_m});
-  p.pixel = pixel ? cv::Point2d(pixel->x(), pixel->y()) : cv::Point2d(-1e3, -1e3);
-  p.half_width_px = view.setup.shape.body_radius_m * camera.lens().intrinsics().fx_px / std::max(1.0, p.range_m);
-  return p;
+// In pictures that come seldom more of it has its turn.
+FarScan::Part FarSequence::Impl::part_due(Stamp stamp) {
+  if (std::exchange(search_all, false)) return {};
+  const int due = static_cast<int>(std::ceil(parts * seconds(stamp - last) / round_s - 1e-6));
+  const FarScan::Part now{part, parts, std::clamp(due, 1, most_parts)};
+  part = part + now.parts >= parts ? 0 : part + now.parts;
+  return now;
 }
 
-FarSearch FarSequence::Impl::search(const std::vector<Predicted>& predicted, const FarArea& area) {
+FarSearch FarSequence::Impl::search(Stamp stamp, const std::vector<Predicted>& predicted, const FarArea& area) {
   FarSearch search;
+  std::vector<FarPlace> taken;
   for (const Predicted& p : predicted) {
+    taken.push_back(view.place_of(p.place));
     if (p.sure) {
       JudgedStone stone = p.known->seen;
       stone.candidate.place = stone.fit.place = p.place;
       stone.candidate.drift_m = drift_m(p.place, *view.levels[0].camera);
       search.stones.push_back(stone);
     } else {
-      search.places.push_back(place_of(p.place));
+      search.places.push_back(taken.back());
     }
   }
-  const FarScan::Part now = search_all ? FarScan::Part{} : FarScan::Part{part, parts};
-  search_all = false;
-  for (const FarPlace& place : view.scan_part(area, now)) {
-    const bool taken = std::any_of(predicted.begin(), predicted.end(), [&](const Predicted& p) {
-      const FarPlace other = place_of(p.place);
+  std::erase_if(refused, [&](const Refused& r) { return seconds(stamp - r.stamp) > refused_s; });
+  for (const Refused& r : refused) taken.push_back(view.place_of(r.place));
+  const SheetCamera& camera = *view.levels.middle().camera;
+  asked.clear();
+  for (const FarPlace& place : view.scan_part(area, part_due(stamp))) {
+    const bool known_already = std::any_of(taken.begin(), taken.end(), [&](const FarPlace& other) {
       return std::abs(other.pixel.x - place.pixel.x) < other.half_width_px &&
              std::abs(other.pixel.y - place.pixel.y) < other.half_width_px;
     });
-    if (!taken) search.places.push_back(place);
+    if (known_already) continue;
+    search.places.push_back(place);
+    const auto on_ice = camera.plane_at({place.pixel.x, place.pixel.y}, view.setup.shape.handle_height_m);
+    if (on_ice) asked.push_back(*on_ice);
   }
-  part = (part + 1) % parts;
   return search;
+}
+
+// What was asked and is no stone is not asked again for a while.
+void FarSequence::Impl::note_refused(Stamp stamp, const std::vector<JudgedStone>& stones) {
+  for (const Eigen::Vector2d& place : asked) {
+    const bool found = std::any_of(stones.begin(), stones.end(),
+                                   [&](const JudgedStone& s) { return s.doubt.empty() && same(s.fit.place, place); });
+    if (!found) refused.push_back({place, stamp});
+  }
 }
 
 void FarSequence::Impl::remember(Stamp stamp, const std::vector<JudgedStone>& stones) {
@@ -181,10 +212,12 @@ void FarSequence::Impl::remember(Stamp stamp, const std::vector<JudgedStone>& st
       return same(n.seen.fit.place, k.seen.fit.place + seconds(n.stamp - k.stamp) * k.velocity);
     });
     if (again || seconds(stamp - k.stamp) > remembered_s) continue;
+    lit.reset();  // it may be the light
     k.followed = false;
     next.push_back(k);
   }
   known = std::move(next);
+  last = stamp;
 }
 
 // Of what runs: it tells how it turns. In the whole picture, where a grip is largest.
@@ -199,9 +232,17 @@ void FarSequence::Impl::measure_handles(Stamp stamp, FarPercept& seen) {
       return k.stamp == stamp && k.followed && k.velocity.norm() > running_mps && k.seen.fit.place == places[i];
     });
     if (!near_enough || !runs) continue;
-    measure_handle(picture, places, seen.stones[i]);
+    measure_turning_handle(picture, places, seen.stones[i]);
     handles_at = stamp;
   }
+}
+
+void FarSequence::Impl::begin(const cv::Mat& image, Stamp stamp, const Pose& eMc, const FarArea& area) {
+  const bool holds = lit && !search_all && stamp > lit->stamp && seconds(stamp - lit->stamp) < light_s &&
+                     Eigen::AngleAxisd(lit->eMc.linear().transpose() * eMc.linear()).angle() < light_turn_rad;
+  if (holds) return view.go_on(image, eMc);
+  view.begin(image, eMc, area);
+  lit = Lit{eMc, stamp};
 }
 
 FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan,
@@ -221,10 +262,11 @@ FarPercept FarSequence::Impl::look(const cv::Mat& image, Stamp stamp, const FarP
   seen.correction = correction;
 
   const FarArea area = view.area_of(aimed_at, plan);
-  view.begin(image, aimed_at.eMc, area);
-  const std::vector<JudgedStone> stones = view.find_stones(search(predict(stamp, expected), area), area);
+  begin(image, stamp, aimed_at.eMc, area);
+  const std::vector<JudgedStone> stones = view.find_stones(search(stamp, predict(stamp, expected), area), area);
 
   view.report(stones, seen);
+  note_refused(stamp, stones);
   remember(stamp, stones);
   measure_handles(stamp, seen);
   return seen;
@@ -244,6 +286,8 @@ void FarSequence::forget() {
   impl_->aimed = false;
   impl_->part = 0;
   impl_->known.clear();
+  impl_->refused.clear();
+  impl_->lit.reset();
 }
 
 }  // namespace hogline::vision

@@ -5,6 +5,7 @@
 
 #include "vision/far_view/far_verdict.hpp"
 #include "vision/far_view/far_view_impl.hpp"
+#include "vision/handle_angle.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -20,6 +21,7 @@ constexpr double far_hiding_m =
 
 constexpr double least_height_m = 0.5;  // of the camera: a stone must be seen from above
 constexpr double grip_top_m = 0.20;     // over the ice
+constexpr double spare_px = 12.0;       // about what is looked at of a stone
 constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
 
 }  // namespace
@@ -115,6 +117,12 @@ FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan&
   const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}}, area);
 
   report(stones, seen);
+  const StonePicture whole = levels[0].picture(response, setup.shape);
+  std::vector<Eigen::Vector2d> places;
+  for (const StoneSighting& s : seen.stones) places.emplace_back(s.x_m, s.y_m);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if ((places[i] - whole.eye().head<2>()).norm() < handle_range_m) measure_handle(whole, places, seen.stones[i]);
+  }
   if (sketch == nullptr) return seen;
   for (const JudgedStone& s : stones) {
     const auto pixel = levels[0].camera->project({s.fit.place.x(), s.fit.place.y(), setup.shape.handle_height_m});
@@ -132,8 +140,32 @@ void FarView::Impl::begin(const cv::Mat& image, const Pose& eMc, const FarArea& 
   levels.begin(image, first_row(area, camera), response, eMc, setup.camera.ice);
 }
 
+void FarView::Impl::go_on(const cv::Mat& image, const Pose& eMc) { levels.go_on(image, eMc, setup.camera.ice); }
+
 const std::vector<FarPlace>& FarView::Impl::scan_part(const FarArea& area, const FarScan::Part& part) {
-  return scan.find(levels.middle().picture(response, setup.shape), area.whole().wider(look_around_m), part);
+  return scan.find(levels.middle().picture(response, setup.shape), levels[0].bgr, area.whole().wider(look_around_m),
+                   part);
+}
+
+FarPlace FarView::Impl::place_of(const Eigen::Vector2d& place) const {
+  const SheetCamera& camera = *levels.middle().camera;
+  const Eigen::Vector3d eye = camera.eMc().translation();
+  FarPlace p;
+  p.range_m = (place - eye.head<2>()).norm();
+  const auto pixel = camera.project({place.x(), place.y(), setup.shape.handle_height_m});
+  p.pixel = pixel ? cv::Point2d(pixel->x(), pixel->y()) : cv::Point2d(-1e3, -1e3);
+  p.half_width_px = setup.shape.body_radius_m * camera.lens().intrinsics().fx_px / std::max(1.0, p.range_m);
+  return p;
+}
+
+// From half a metre over the ice to half a metre before the foot: where verdicts look for somebody's legs.
+void FarView::Impl::fill(int level, const FarPlace& place) {
+  const double scale = static_cast<double>(levels.middle().scale) / levels[level].scale;
+  const double half_px = scale * place.half_width_px;
+  const double x = scale * place.pixel.x, y = scale * place.pixel.y;
+  const cv::Point2d begin(x - 2.4 * half_px - spare_px, y - 4.2 * half_px - spare_px);
+  const cv::Point2d end(x + 2.4 * half_px + spare_px, y + 3.0 * half_px + spare_px);
+  levels.fill(level, cv::Rect(cv::Point(begin), cv::Point(end)));
 }
 
 // Candidates of the places that are to be looked at on this level.
@@ -148,6 +180,7 @@ const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vec
   for (const FarPlace& place : places) {
     if (FarLevels::level_at(place.range_m, setup.camera.intrinsics) != level) continue;
     marked |= mark_for_votes(scale * place.pixel, scale * place.half_width_px, centres);
+    fill(level, place);
   }
   if (marked.empty()) return candidates;
   const StoneGroups rows{{}, centres.rowRange(marked.y, marked.br().y), 2 * marked.y};
@@ -166,7 +199,9 @@ std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, con
     std::vector<JudgedStone> stones = screening.judge(picture, vote(level, search.places, area), nearer);
     for (const JudgedStone& s : search.stones) {
       const double range_m = (s.fit.place - eye).norm();
-      if (FarLevels::level_at(range_m, setup.camera.intrinsics) == level) stones.push_back(s);
+      if (FarLevels::level_at(range_m, setup.camera.intrinsics) != level) continue;
+      fill(level, place_of(s.fit.place));
+      stones.push_back(s);
     }
     if (stones.empty()) continue;
     screening.refine(picture, stones, nearer);

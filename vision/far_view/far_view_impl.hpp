@@ -48,7 +48,12 @@ struct FarView::Impl {
 
   FarArea area_of(const FarAim& aim, const FarPlan& plan) const;
   void begin(const cv::Mat& image, const Pose& eMc, const FarArea& area);
+  /// Of a picture that only what is asked for is looked at.
+  void go_on(const cv::Mat& image, const Pose& eMc);
   const std::vector<FarPlace>& scan_part(const FarArea& area, const FarScan::Part& part);
+  /// Where a stone is seen, and what is looked at about it, on a level.
+  FarPlace place_of(const Eigen::Vector2d& place) const;
+  void fill(int level, const FarPlace& place);
   const std::vector<StoneCandidate>& vote(int level, const std::vector<FarPlace>& places, const FarArea& area);
   /// All that were asked, whether stones or not.
   std::vector<JudgedStone> find_stones(const FarSearch& search, const FarArea& area);
@@ -64,6 +69,9 @@ struct FarView::Impl {
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
 };
+
+/// Farther away a grip is a few pixels high, and seen nearly from the side.
+inline constexpr double handle_range_m = 26.0;
 
 /// For single looks, and for stones that were seen a moment ago.
 ScreeningOptions careful_screening();

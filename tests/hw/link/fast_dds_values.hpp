@@ -5,6 +5,7 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fastdds/dds/topic/TopicDataType.hpp>
@@ -66,6 +67,24 @@ struct Release {
   double hog_distance_m = 0.0, lateral_m = 0.0, speed_mps = 0.0, heading_rad = 0.0, spin_radps = 0.0;
 };
 
+struct Time {
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+};
+
+struct Echo {
+  std::string robot;
+  std::uint64_t session = 0;
+  Time sent;
+  Time heard;
+};
+
+struct Heartbeat {
+  Header header;
+  Origin origin;
+  std::vector<Echo> echoes;
+};
+
 using Cdr = eprosima::fastcdr::Cdr;
 
 inline void pass(Cdr& c, Header& h, bool out) {
@@ -125,6 +144,33 @@ inline void pass(Cdr& c, Board& m, bool out) {
     m.stones.resize(std::min<std::uint32_t>(count, 1000));
   }
   for (Stone& s : m.stones) pass(c, s, out);
+}
+
+inline void pass(Cdr& c, Time& t, bool out) {
+  if (out)
+    c << t.sec << t.nanosec;
+  else
+    c >> t.sec >> t.nanosec;
+}
+inline void pass(Cdr& c, Echo& e, bool out) {
+  if (out)
+    c << e.robot << e.session;
+  else
+    c >> e.robot >> e.session;
+  pass(c, e.sent, out);
+  pass(c, e.heard, out);
+}
+inline void pass(Cdr& c, Heartbeat& m, bool out) {
+  pass(c, m.header, out);
+  pass(c, m.origin, out);
+  auto count = static_cast<std::uint32_t>(m.echoes.size());
+  if (out)
+    c << count;
+  else {
+    c >> count;
+    m.echoes.resize(std::min<std::uint32_t>(count, 1000));
+  }
+  for (Echo& e : m.echoes) pass(c, e, out);
 }
 
 /// A type by its ROS 2 name, final, without keys, plain CDR in this machine's byte order.

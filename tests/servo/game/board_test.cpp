@@ -133,5 +133,31 @@ RC_GTEST_PROP(ScoreProperty, AsksNeitherForNamesNorForOrderNorForSides, ()) {
   RC_ASSERT(score(mirrored) == (EndScore{points[1], points[0]}));
 }
 
+RC_GTEST_PROP(ScoreProperty, HoldsWithinItsMargin, ()) {
+  std::vector<Lying> stones = any_stones();
+  const Board board = board_of(stones);
+  const double margin_m = score_margin_m(board);
+  for (Lying& stone : stones) {
+    stone.radius_m = std::max(0.0, stone.radius_m + 0.0049 * *rc::gen::inRange(-100, 100) * std::min(margin_m, 1.0));
+  }
+  RC_ASSERT(score(board_of(stones)) == score(board));
+}
+
+TEST(ScoreMargin, IsTheGapThatDecides) {
+  struct Case {
+    const char* what;
+    std::vector<Lying> stones;
+    double margin_m;
+  };
+  const std::vector<Case> cases{
+      {"two nearest of different teams", {{Team::first, 0.30}, {Team::second, 0.35}, {Team::first, 1.0}}, 0.05},
+      {"a second counting one, hardly", {{Team::first, 0.10}, {Team::first, 0.48}, {Team::second, 0.50}}, 0.02},
+      {"one that bites the house, hardly", {{Team::first, 1.97}}, 0.004},
+      {"one that does not bite it, hardly", {{Team::second, 1.98}}, 0.006},
+  };
+  for (const Case& c : cases) EXPECT_NEAR(score_margin_m(board_of(c.stones)), c.margin_m, 1e-9) << c.what;
+  EXPECT_GT(score_margin_m({}), 1e6) << "of nothing there is nothing to measure";
+}
+
 }  // namespace
 }  // namespace hogline::servo::test

@@ -31,13 +31,6 @@ TEST(LinkSection, is_read) {
   EXPECT_EQ(rig.link->security->folder, "keys");
 }
 
-TEST(LinkSection, the_commander_is_the_only_peer_or_the_one_that_is_named) {
-  EXPECT_EQ(with_link(fine + "  interface: lo\n").link->commander, "thrower");
-  const std::string two = "  robot: thrower\n  peers: [skip, strategist]\n  domain: 7\n  interface: lo\n";
-  EXPECT_EQ(with_link(two).link->commander, "");
-  EXPECT_EQ(with_link(two + "  commander: skip\n").link->commander, "skip");
-}
-
 TEST(LinkSection, is_not_there_unless_the_rig_says_so) {
   EXPECT_FALSE(parse_device_rig(embedded_file("rigs/practice.yaml"), "rig.yaml").link);
 }
@@ -53,7 +46,6 @@ TEST(LinkSection, refuses) {
       {"a network without addresses", fine + "  interface: eth0\n", "link.addresses"},
       {"a domain beyond DDS's", "  robot: skip\n  peers: [thrower]\n  domain: 233\n  interface: lo\n", "link.domain"},
       {"a name with a slash", "  robot: a/b\n  peers: [thrower]\n  domain: 7\n  interface: lo\n", "link.robot"},
-      {"a commander that is no peer", fine + "  interface: lo\n  commander: coach\n", "link.commander"},
       {"nobody to speak to", "  robot: skip\n  peers: []\n  domain: 7\n  interface: lo\n", "link.peers"},
       {"an address that is none", fine + "  interface: lo\n  addresses: ['<x>']\n", "link.addresses"},
   };

@@ -1,0 +1,25 @@
+#include "src/live/input_lines.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace hogline {
+
+std::optional<std::string> InputLines::line() {
+  pollfd waiting{STDIN_FILENO, POLLIN, 0};
+  if (open_ && poll(&waiting, 1, 0) == 1) {
+    std::array<char, 256> bytes{};
+    const auto got = read(STDIN_FILENO, bytes.data(), bytes.size());
+    open_ = got > 0;
+    if (open_) said_.append(bytes.data(), static_cast<std::size_t>(got));
+  }
+  const auto end = said_.find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  const std::string line = said_.substr(0, end);
+  said_.erase(0, end + 1);
+  return line;
+}
+
+}  // namespace hogline

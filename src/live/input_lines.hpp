@@ -1,0 +1,19 @@
+// An operator's words on stdin, a line each, without waiting for them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace hogline {
+
+/// Whoever closes stdin has nothing more to say.
+class InputLines {
+ public:
+  std::optional<std::string> line();
+
+ private:
+  bool open_ = true;
+  std::string said_;
+};
+
+}  // namespace hogline

@@ -1,0 +1,49 @@
+// A skip that stays: a member of the team (SkipMember) whose looks go on in a thread of their own, and whose operator
+// says when it looks and what is ordered.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "src/live/skip_eyes_thread.hpp"
+#include "src/steel/steel_skip.hpp"
+#include "src/team/skip_member.hpp"
+
+namespace hogline {
+
+/// Used by one thread. Nothing of the head moves before begin(), nor after a fault before the next one.
+class LiveSkip {
+ public:
+  using MakeSeer = std::function<std::unique_ptr<SkipSeer>()>;
+  using Tell = std::function<void(const char* event, const std::string& what)>;
+
+  /// Robot, link and clock must outlive it.
+  LiveSkip(const config::SkipRig& rig, SteelSkip& robot, hw::TeamLink& link, const hw::Clock& clock,
+           const MakeSeer& make_seer, Tell tell);
+
+  /// One control period.
+  void step(Stamp now, Duration dt);
+  /// Clears latched errors, looks at the house and waits for a stone. Whatever was under way ends.
+  void begin(Stamp now);
+  /// Why not, where it can not be ordered now; empty: it is on its way.
+  std::string order(const servo::ShotOrder& shot, Stamp now);
+
+ private:
+  void watch();
+
+  Tell tell_;
+  SteelSkip& robot_;
+  std::unique_ptr<SkipSeer> sees_;
+  SkipEyesThread eyes_;
+  SkipMember member_;
+  servo::IceEstimate ice_;
+  std::uint32_t shots_ = 0;
+  std::optional<servo::SkipState> told_state_;
+  OrderPhase told_order_ = OrderPhase::none;
+  std::optional<std::string> told_missing_;
+  std::optional<std::string> told_error_;
+};
+
+}  // namespace hogline

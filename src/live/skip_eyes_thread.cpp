@@ -1,0 +1,115 @@
+#include "src/live/skip_eyes_thread.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace hogline {
+namespace {
+
+constexpr Duration asked_lately = std::chrono::milliseconds(50);
+constexpr Duration remembered = std::chrono::seconds(1);
+constexpr auto pause = std::chrono::milliseconds(1);
+
+}  // namespace
+
+std::optional<hw::Frame> SkipEyesThread::Box::latest(Stamp now) {
+  const std::lock_guard lock(eyes_.mutex_);
+  asked_ = now;
+  return std::exchange(done_, std::nullopt);
+}
+
+std::optional<hw::DeviceError> SkipEyesThread::Box::error() const {
+  const std::lock_guard lock(eyes_.mutex_);
+  return error_;
+}
+
+void SkipEyesThread::Box::rearm() {
+  const std::lock_guard lock(eyes_.mutex_);
+  rearm_ = true;
+  error_.reset();
+}
+
+std::optional<hw::Frame> SkipEyesThread::Box::take() {
+  bool rearm = false;
+  {
+    const std::lock_guard lock(eyes_.mutex_);
+    if (asked_ == Stamp{} || eyes_.clock_.now() - asked_ > asked_lately) return std::nullopt;
+    rearm = std::exchange(rearm_, false);
+  }
+  if (rearm) camera_.rearm();
+  auto frame = camera_.latest(eyes_.clock_.now());
+  const std::lock_guard lock(eyes_.mutex_);
+  error_ = camera_.error();
+  return frame;
+}
+
+void SkipEyesThread::Box::deliver(const hw::Frame& frame) {
+  done_ = hw::Frame{.bgr = {}, .stamp = frame.stamp, .id = frame.id};
+}
+
+SkipEyesThread::SkipEyesThread(SkipSeer& seer, hw::Camera& near, hw::Camera& far, const hw::Clock& clock)
+    : seer_(seer), clock_(clock), near_(*this, near), far_(*this, far), thread_([this](const std::stop_token& stop) {
+        run(stop);
+      }) {}
+
+SkipEyesThread::~SkipEyesThread() = default;
+
+void SkipEyesThread::note(const hw::HeadState& head, const servo::SkipDiagnosis& known) {
+  const std::lock_guard lock(mutex_);
+  known_ = known;
+  if (heads_.empty() || head.stamp > heads_.back().stamp) heads_.push_back(head);
+  while (heads_.size() > 2 && heads_.front().stamp < head.stamp - remembered) heads_.pop_front();
+}
+
+// As SkipLoop has it: between two readings all motion is even.
+std::optional<servo::HeadAngles> SkipEyesThread::angles_at(Stamp stamp) const {
+  const std::lock_guard lock(mutex_);
+  if (heads_.empty() || stamp < heads_.front().stamp) return std::nullopt;
+  const auto next = std::ranges::lower_bound(heads_, stamp, {}, &hw::HeadState::stamp);
+  const hw::HeadState& h = next == heads_.end() ? heads_.back() : *next;
+  const double ahead_s = seconds(stamp - h.stamp);
+  return servo::HeadAngles{h.measured.pan_rad + ahead_s * h.rate.pan_radps,
+                           h.measured.tilt_rad + ahead_s * h.rate.tilt_radps};
+}
+
+void SkipEyesThread::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const bool far = look_far();
+    const bool near = look_near();
+    if (!far && !near) std::this_thread::sleep_for(pause);
+  }
+}
+
+bool SkipEyesThread::look_near() {
+  const auto frame = near_.take();
+  const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
+  if (!q) return false;
+  servo::SkipDiagnosis known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = known_;
+  }
+  servo::NearSight sight = seer_.near_view(*frame, *q, known);
+  const std::lock_guard lock(mutex_);
+  seen_.near = std::move(sight);
+  near_.deliver(*frame);
+  return true;
+}
+
+bool SkipEyesThread::look_far() {
+  const auto frame = far_.take();
+  const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
+  if (!q) return false;
+  servo::SkipDiagnosis known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = known_;
+  }
+  FarPercept percept = seer_.far_view(*frame, *q, known);
+  const std::lock_guard lock(mutex_);
+  seen_.far = std::move(percept);
+  far_.deliver(*frame);
+  return true;
+}
+
+}  // namespace hogline

@@ -1,0 +1,243 @@
+// Kills or stops the programs of a team at random moments of throws, and reads from the rink's truth what became of the
+// robot:  hogline_kills PROGRAM COUNT SEED
+// Prints a table; its exit status is 1 when the robot did not stop in time, let a stone go that it should have kept,
+// moved on its own afterwards, or could not be set up again.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "tests/src/live/team_scene.hpp"
+
+using namespace hogline;
+using namespace hogline::live_test;
+
+namespace {
+
+// From the signal until body, wheels and arm stand: the longest that anybody needs to notice (the link's deadline of
+// 0.3 s, the drives' 0.1 s), the ramp of 2.5 m/s2 from full speed, the fingers' and the arm's way, and what a busy
+// machine adds.
+constexpr Duration stop_limit = 2500ms;
+// A stone that is let go so soon after the signal was let go by a robot that could not yet know.
+constexpr Duration notice_limit = 400ms;
+constexpr Duration still_for = 1500ms;
+
+struct Kill {
+  const char* whom;
+  int signal;
+  Duration stopped_for;  ///< SIGSTOP: until SIGCONT
+  const char* state;     ///< of the throw
+  Duration after;        ///< its beginning
+};
+
+struct Result {
+  Kill kill{};
+  bool began = false;  ///< the throw reached the state
+  double speed_mps = 0.0;
+  bool moved = false;            ///< when the signal came
+  std::optional<double> stop_s;  ///< until all stood
+  double way_m = 0.0;
+  bool released_before = false;
+  bool released_after = false;
+  bool still = false;
+  std::string said;
+  std::string problem;
+};
+
+template <typename Value, std::size_t count>
+Value pick(const std::array<Value, count>& of, std::mt19937& random) {
+  return of[std::uniform_int_distribution<std::size_t>(0, count - 1)(random)];
+}
+
+Kill draw(std::mt19937& random, int number) {
+  struct Part {
+    const char* state;
+    double span_s;
+  };
+  constexpr std::array<Part, 8> parts{{{"unfold", 1.5},
+                                       {"rehearse", 0.9},
+                                       {"measure", 0.9},
+                                       {"align", 1.2},
+                                       {"fold", 1.5},
+                                       {"run", 4.8},
+                                       {"run", 4.8},
+                                       {"run", 4.8}}};
+  constexpr std::array<const char*, 3> whom{"thrower", "skip", "rink"};
+  const auto share = [&random](double least, double most) {
+    return from_seconds(std::uniform_real_distribution<double>(least, most)(random));
+  };
+  const Part part = pick(parts, random);
+  return {.whom = whom[static_cast<std::size_t>(number) % whom.size()],
+          .signal = number / 3 % 2 == 0 ? SIGKILL : SIGSTOP,
+          .stopped_for = share(1.0, 3.0),
+          .state = part.state,
+          .after = share(0.0, part.span_s)};
+}
+
+Member& member(TeamScene& scene, const std::string& name) {
+  if (name == "thrower") return scene.thrower();
+  return name == "skip" ? scene.skip() : scene.rink();
+}
+
+// The last moment of the truth that is not after `at`.
+const TrueMoment& moment_at(const std::vector<TrueMoment>& truth, Stamp at) {
+  const auto next = std::ranges::upper_bound(truth, at, {}, &TrueMoment::at);
+  return next == truth.begin() ? truth.front() : *std::prev(next);
+}
+
+// When the robot stood, and stood for a while: nothing while it moves, or nothing is known.
+std::optional<Stamp> stood_since(const std::vector<TrueMoment>& truth, Stamp from) {
+  std::optional<Stamp> stood;
+  for (auto m = std::ranges::lower_bound(truth, from, {}, &TrueMoment::at); m != truth.end(); ++m) {
+    if (m->moves) {
+      stood.reset();
+    } else if (!stood) {
+      stood = m->at;
+    }
+  }
+  return stood && !truth.empty() && truth.back().at - *stood >= still_for ? stood : std::nullopt;
+}
+
+bool throw_reaches(TeamScene& scene, const Kill& kill, std::string& problem) {
+  const Stamp begin = now();
+  scene.skip().start();
+  scene.hand().start();
+  if (!wait_until([&] { return scene.thrower().told_since(begin, "throwing").has_value(); }, 60s)) {
+    problem = "no throw began";
+    return false;
+  }
+  const auto in_state = [&] {
+    for (const Told& t : scene.thrower().told())
+      if (t.at >= begin && ((t.event == "state" && t.what == kill.state) || t.event == "disarmed")) return true;
+    return false;
+  };
+  wait_until(in_state, 60s);
+  std::this_thread::sleep_for(kill.after);
+  return true;
+}
+
+// What the survivors told of it, in their own words.
+std::string words_since(TeamScene& scene, const Kill& kill, Stamp at) {
+  std::string words;
+  for (Member* m : {&scene.thrower(), &scene.skip()}) {
+    if (m->name() == kill.whom && kill.signal == SIGKILL) continue;
+    for (const char* event : {"aborted", "disarmed", "silent", "not thrown"}) {
+      const auto told = m->told_since(at, event);
+      if (!told) continue;
+      words +=
+          (words.empty() ? "" : "; ") + m->name() + ": " + told->event + (told->what.empty() ? "" : ", ") + told->what;
+      break;
+    }
+  }
+  return words;
+}
+
+void judge(TeamScene& scene, Result& r, Stamp at) {
+  const bool world_ends = r.kill.whom == std::string("rink") && r.kill.signal == SIGKILL;
+  if (world_ends) {
+    r.still = true;  // there is no robot any more: what counts is that the next one does not move by itself
+    return;
+  }
+  std::optional<Stamp> stood;
+  wait_until([&] { return (stood = stood_since(scene.truth(), at)).has_value(); }, 20s);
+  const auto& truth = scene.truth();
+  if (stood) {
+    const Stamp last = std::max(at, *stood);
+    r.stop_s = r.moved ? seconds(last - at) : 0.0;
+    r.way_m = moment_at(truth, last).y_m - moment_at(truth, at).y_m;
+  }
+  for (auto m = std::ranges::lower_bound(truth, at + notice_limit, {}, &TrueMoment::at); m != truth.end(); ++m)
+    r.released_after = r.released_after || (m->released && !moment_at(truth, at + notice_limit).released);
+  r.still = stood.has_value();
+}
+
+Result carry_out(TeamScene& scene, const Kill& kill) {
+  Result r;
+  r.kill = kill;
+  if (!scene.set_up()) {
+    r.problem = "can not be set up again";
+    return r;
+  }
+  r.began = throw_reaches(scene, kill, r.problem);
+  if (!r.began) return r;
+  const Stamp at = now();
+  member(scene, kill.whom).signal(kill.signal);
+  std::this_thread::sleep_for(50ms);
+  const TrueMoment before = moment_at(scene.truth(), at);
+  r.moved = before.moves;
+  r.speed_mps = before.speed_mps;
+  r.released_before = moment_at(scene.truth(), at + notice_limit).released;
+  if (kill.signal == SIGSTOP) {
+    std::this_thread::sleep_for(kill.stopped_for);
+    member(scene, kill.whom).signal(SIGCONT);
+  }
+  judge(scene, r, at);
+  wait_until([&] { return !(r.said = words_since(scene, kill, at)).empty(); }, 5s);
+
+  // Whoever was killed comes back while the operator still holds the switch: nothing may move by itself.
+  member(scene, kill.whom).start();
+  const Stamp back = now();
+  std::this_thread::sleep_for(still_for);
+  for (const TrueMoment& m : scene.truth())
+    if (m.at > back && m.moves) r.still = false;
+  if (r.problem.empty() && !r.still) r.problem = "moves, or is not known to stand";
+  if (r.problem.empty() && r.released_after) r.problem = "a stone was let go";
+  if (r.problem.empty() && r.stop_s && *r.stop_s > seconds(stop_limit)) r.problem = "stopped late";
+  if (r.problem.empty() && r.said.empty()) r.problem = "nobody said anything";
+  return r;
+}
+
+std::string row(int number, const Result& r) {
+  const Kill& k = r.kill;
+  const std::string how = k.signal == SIGKILL ? "killed" : fmt::format("stopped for {:.1f} s", seconds(k.stopped_for));
+  return fmt::format("| {} | {} {} | {} + {:.2f} s | {:.2f} | {} | {} | {} | {} |", number, k.whom, how, k.state,
+                     seconds(k.after), r.speed_mps, r.stop_s ? fmt::format("{:.2f}", *r.stop_s) : "-",
+                     r.stop_s ? fmt::format("{:.2f}", r.way_m) : "-", r.released_before ? "yes" : "no",
+                     r.problem.empty() ? r.said : "**" + r.problem + "** " + r.said);
+}
+
+// For whoever wants to know why.
+void tell_all(TeamScene& scene, Stamp since) {
+  for (Member* m : {&scene.rink(), &scene.thrower(), &scene.skip(), &scene.hand()})
+    for (const Told& t : m->told())
+      if (t.at >= since) fmt::print(stderr, "  {:8.3f} {} {}: {}\n", seconds(t.at - since), m->name(), t.event, t.what);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 4) return 2;
+  std::signal(SIGPIPE, SIG_IGN);
+  const int trials = std::atoi(arguments[2]);
+  std::mt19937 random(static_cast<std::uint32_t>(std::atol(arguments[3])));
+  TeamScene scene(arguments[1]);
+  std::vector<double> stops;
+  int problems = 0;
+  int moving = 0;
+  fmt::print(
+      "| | what | at | speed m/s | stood after s | way m | stone gone before | what the survivors say |\n"
+      "|--:|---|---|--:|--:|--:|---|---|\n");
+  for (int i = 0; i < trials; ++i) {
+    const Stamp begin = now();
+    const Result r = carry_out(scene, draw(random, i));
+    fmt::print("{}\n", row(i + 1, r));
+    if (!r.problem.empty()) tell_all(scene, begin);
+    std::fflush(stdout);
+    problems += r.problem.empty() ? 0 : 1;
+    moving += r.moved ? 1 : 0;
+    if (r.stop_s && r.moved) stops.push_back(*r.stop_s);
+  }
+  const bool again = scene.set_up();
+  std::ranges::sort(stops);
+  fmt::print("\n{} signals, {} of them while the robot moved; {} problems; set up once more after the last: {}.\n",
+             trials, moving, problems, again ? "yes" : "no");
+  if (!stops.empty()) {
+    fmt::print("Stood after {:.2f} s (median of {}), {:.2f} s (longest); limit {:.1f} s.\n", stops[stops.size() / 2],
+               stops.size(), stops.back(), seconds(stop_limit));
+  }
+  return problems == 0 && again && moving > 0 ? 0 : 1;
+}

@@ -1,0 +1,121 @@
+// The programs that make a team, each in a process of its own, and what they and the rink's truth have said.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/percepts/stamp.hpp"
+
+namespace hogline::live_test {
+
+using namespace std::chrono_literals;
+
+Stamp now();
+
+/// Until it holds, or the time is over: whether it does.
+bool wait_until(const std::function<bool()>& holds, Duration limit);
+
+/// One line that a program has told.
+struct Told {
+  Stamp at{};
+  std::string event;
+  std::string what;
+};
+
+/// One moment of the rink's truth.
+struct TrueMoment {
+  Stamp at{};
+  bool moves = false;  ///< body, wheels or arm
+  bool base_moves = false;
+  double speed_mps = 0.0;
+  double y_m = 0.0;
+  bool held = false;
+  bool released = false;
+};
+
+/// Lines of a file that grows, each read once.
+class GrowingFile {
+ public:
+  explicit GrowingFile(std::string path) : path_(std::move(path)) {}
+  std::vector<std::string> news();
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::streamoff read_ = 0;
+  std::string rest_;
+};
+
+/// A program of the team: its stdout goes to a file, its stdin is a pipe.
+class Member {
+ public:
+  Member(std::string name, std::vector<std::string> command, const std::filesystem::path& folder);
+  ~Member();
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+
+  /// No effect while it runs.
+  void start();
+  bool running();
+  void signal(int number);
+  /// Asks it to end, and kills it when it does not.
+  void end();
+  void say(const std::string& line) const;
+
+  const std::string& name() const { return name_; }
+  /// All that it has told since its first start, and where it was last read.
+  const std::vector<Told>& told();
+  std::optional<Told> told_since(Stamp since, const std::string& event);
+  /// The last exit status; -1 while it runs.
+  int status() const { return status_; }
+
+ private:
+  std::string name_;
+  std::vector<std::string> command_;
+  GrowingFile output_;
+  std::vector<Told> told_;
+  pid_t pid_ = -1;
+  int input_ = -1;
+  int status_ = -1;
+};
+
+/// Rink, thrower, its operator's hand, and a skip that orders one shot and stays: with lines of this run's own.
+class TeamScene {
+ public:
+  /// `hogline`: the program. The folder is made and removed.
+  explicit TeamScene(const std::string& hogline);
+  ~TeamScene();
+
+  Member& rink() { return rink_; }
+  Member& thrower() { return thrower_; }
+  Member& hand() { return hand_; }
+  Member& skip() { return skip_; }
+  std::uint32_t domain() const { return domain_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// The truth of all that has happened; grows.
+  const std::vector<TrueMoment>& truth();
+  /// The robot stands in the hack with a stone, everybody is there, nobody holds the switch.
+  bool set_up();
+
+ private:
+  std::string rig(const std::string& name, const std::string& text) const;
+
+  std::filesystem::path folder_;
+  std::uint32_t domain_;
+  std::string thrower_rig_;
+  std::string skip_rig_;
+  Member rink_;
+  Member thrower_;
+  Member hand_;
+  Member skip_;
+  GrowingFile truth_file_;
+  std::vector<TrueMoment> truth_;
+};
+
+}  // namespace hogline::live_test
