@@ -8,6 +8,7 @@
 
 #include "servo/skip_sheet.hpp"
 #include "servo/stone_path.hpp"
+#include "src/team/seen_trajectory.hpp"
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -178,6 +179,8 @@ std::optional<ThrowReport> RobotsThrow::ordered() {
   }
   const Duration waited = team_.now() - since_;
   const bool silent = phase == OrderPhase::sent && waited > answer_limit;
+  const bool still_brakes = phase == OrderPhase::refused && team_.thrower().throwing();
+  if (still_brakes && waited < throw_limit) return std::nullopt;
   if (phase == OrderPhase::refused || silent || waited > throw_limit) return failed(team_.skip().why());
   return std::nullopt;
 }
@@ -236,6 +239,7 @@ ThrowReport RobotsThrow::ended() {
   if (record_.followed) seen.followed = record_.followed->result;
   StonesAfter after = stones_after(seen);
   record_.report.seen = after.stones;
+  record_.report.trajectory = seen_trajectory(seen, after.stones.lying);
   record_.remarks.insert(record_.remarks.end(), after.remarks.begin(), after.remarks.end());
   if (record_.counted) record_.report.seen_sigma_m = house_sigma_m(*record_.counted);
   learn();

@@ -79,6 +79,11 @@ TEST(RobotsThrow, ATurnFromTheLookToTheCount) {
     ASSERT_TRUE(seen && there);
     EXPECT_LT(std::hypot(seen->x_m - there->x_m, seen->y_m - there->y_m), 0.02);
   }
+  ASSERT_TRUE(report.trajectory);
+  servo::Board replayed = report.trajectory->start;
+  for (const auto& frame : report.trajectory->frames)
+    for (const auto& change : frame) replayed.stones[servo::side_of(change.team)][change.stone] = change.now;
+  EXPECT_EQ(replayed, report.seen.lying) << "its frames lead to where the stones lie";
   EXPECT_EQ(one.robots.ice().estimate().throws, 1) << "the ice model has learnt";
   EXPECT_NEAR(one.robots.ice().estimate().friction_scale, one.team.request().scenario.stone.friction_scale, 0.03);
 }
