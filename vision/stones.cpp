@@ -19,8 +19,8 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
-constexpr double least_grip = 0.5;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
-constexpr double alike = 0.15;      // of the light's difference from ice
+constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
+constexpr double alike = 0.15;       // of the light's difference from ice
 
 std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
   std::vector<Eigen::Vector2d> places;
