@@ -59,7 +59,10 @@ class Search {
   /// The best directions of all tried, and another that is better than those beside it.
   std::array<float, 2> rough() {
     std::array<float, directions> misfits{};
-    for (std::size_t i = 0; i < directions; ++i) misfits[i] = misfit({turn_of(i), 0.0F, 0.0F});
+    for (std::size_t i = 0; i < directions; ++i) {
+      misfits[i] = misfit({turn_of(i), 0.0F, 0.0F});
+      present_[i] = evidence_.presence(cover_, wall_light_);
+    }
     const auto best = static_cast<std::size_t>(std::min_element(misfits.begin(), misfits.end()) - misfits.begin());
     std::size_t second = best;
     for (std::size_t i = 0; i < directions; ++i) {
@@ -77,13 +80,11 @@ class Search {
     return evidence_.lumpiness(cover_, wall_light_);
   }
 
-  /// The most of a grip that may be there in any direction, two sigmas granted.
-  double most_present() {
+  /// The most of a grip that may be there in any direction tried by rough(), two sigmas granted.
+  double most_present() const {
     float most = 0.0F;
-    for (std::size_t i = 0; i < directions; ++i) {
-      cover_by_grip(evidence_.sights, shape_, {.turn_rad = turn_of(i)}, blur_px, cover_);
-      const auto seen = evidence_.presence(cover_, wall_light, correlated * pixel_variance_);
-      most = std::max(most, seen.share + 2.0F * seen.sigma);
+    for (const auto& seen : present_) {
+      most = std::max(most, seen.share + 2.0F * seen.sigma * std::sqrt(correlated * pixel_variance_));
     }
     return double{most};
   }
@@ -162,6 +163,7 @@ class Search {
   const GripEvidence& evidence_;
   GripShape shape_;
   GripCover cover_;
+  std::array<GripEvidence::Presence, directions> present_;
   float pixel_variance_ = 0.0F;
   float wall_light_ = wall_light;
 };

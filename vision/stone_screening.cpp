@@ -10,7 +10,8 @@ namespace {
 
 constexpr double least_granite = 0.20;  // of the body's front; a nearer stone's granite counts, too
 constexpr double same_place_m = 0.2;
-constexpr int most_rounds = 3;  // a stone behind one behind one
+constexpr double close_m = 0.45;  // along the line of sight: nearer than this a fit may not be at its end
+constexpr int most_rounds = 3;    // a stone behind one behind one
 
 // A stone stands there already.
 bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
@@ -35,9 +36,27 @@ std::vector<JudgedStone> StoneScreening::judge(const StonePicture& picture,
                                                const std::vector<NearerStone>& nearer) {
   std::vector<JudgedStone> stones = screen(picture, candidates, nearer);
   compare_granite(stones);
+  settle_close(picture, stones);
   part_overlapping(picture, stones);
   doubt_grips(stones, picture.eye(), picture.shape);
   return stones;
+}
+
+// A stone's own rows get votes, too: a fit that begins a few pixels short of it may be under way to it still, and in
+// the fit of all together one would hide the other. Taken to its end by itself, it stands where the better one does.
+void StoneScreening::settle_close(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  for (JudgedStone& worse : stones) {
+    const bool close = std::any_of(stones.begin(), stones.end(), [&](const JudgedStone& better) {
+      if (&better == &worse || !better.doubt.empty() || better.candidate.votes < worse.candidate.votes) return false;
+      const Bearing bearing = bearing_of(worse.fit.place, picture.eye());
+      const Eigen::Vector2d off = better.fit.place - worse.fit.place;
+      return std::abs(off.dot(bearing.right)) < same_place_m && std::abs(off.dot(bearing.away)) < close_m;
+    });
+    if (!worse.doubt.empty() || !close) continue;
+    fitter_.begin(picture, {{worse.fit.place}}, options_.close);
+    worse.fit = fitter_.run().stones[0];
+    worse.doubt = doubt_of(worse.candidate, worse.fit, false);
+  }
 }
 
 // Each by itself: what is no stone does not look like one in any light. Then, those that something in front may hide:

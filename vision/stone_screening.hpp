@@ -16,6 +16,7 @@ struct ScreeningOptions {
       .iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120};  ///< of each by itself
   StoneFitOptions hidden{
       .iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200};  ///< of what may be hidden
+  StoneFitOptions close{.iterations = 5, .fit_shape = false, .pixels = 200};     ///< of what may be another's
   StoneFitOptions all{};                                                         ///< of all together
   double hiding_m = 1.2;  ///< a stone farther behind another is seen over it
 };
@@ -37,6 +38,7 @@ class StoneScreening {
  private:
   std::vector<JudgedStone> screen(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
                                   const std::vector<NearerStone>& nearer);
+  void settle_close(const StonePicture& picture, std::vector<JudgedStone>& stones);
   std::vector<NearerStone> look_behind(const StonePicture& picture, const std::vector<NearerStone>& known,
                                        const std::vector<NearerStone>& newest, std::vector<JudgedStone>& stones);
   bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others,

@@ -52,7 +52,8 @@ StoneSurroundings surroundings_of(const StonePicture& picture, const JudgedStone
   const Bearing bearing = bearing_of(place, picture.eye());
   const bool covered = std::any_of(nearer.begin(), nearer.end(), [&](const NearerStone& n) {
     const Eigen::Vector2d off = n.place - place;
-    return off.dot(bearing.away) < -0.5 * picture.shape.body_radius_m && std::abs(off.dot(bearing.right)) < picture.shape.body_radius_m + covers_m;
+    return off.dot(bearing.away) < -0.5 * picture.shape.body_radius_m &&
+           std::abs(off.dot(bearing.right)) < picture.shape.body_radius_m + covers_m;
   });
   Tally below(picture, stone.fit.granite, alike);
   Tally above(picture, stone.fit.handle, alike);

@@ -22,6 +22,8 @@ std::optional<Frame> SharedCamera::latest(Stamp now) {
     auto frame = copy(count - 1);
     if (!frame) continue;
     given_ = count;
+    frame->id += id_offset_;
+    last_id_ = frame->id;
     return frame;
   }
   return std::nullopt;
@@ -60,6 +62,7 @@ bool SharedCamera::connect(Stamp now) {
   }
   given_ = header.newest_count.load(std::memory_order_acquire);  // what was written for others is old
   channels_ = header.shape.channels;
+  id_offset_ = last_id_;
   if (header.shape.width_px == config_.width_px && header.shape.height_px == config_.height_px) return true;
   fail(DeviceErrorKind::protocol,
        "pictures of " + std::to_string(header.shape.width_px) + " x " + std::to_string(header.shape.height_px) +

@@ -38,8 +38,10 @@ class SharedCamera final : public Camera {
 
   SharedCameraConfig config_;
   std::optional<FrameRingMapping> ring_;
-  std::uint32_t channels_ = 0;  ///< as it was when the ring was found
-  std::uint64_t given_ = 0;     ///< pictures of this ring given or passed over
+  std::uint32_t channels_ = 0;   ///< as it was when the ring was found
+  std::uint64_t given_ = 0;      ///< pictures of this ring given or passed over
+  std::uint64_t last_id_ = 0;    ///< given to anybody
+  std::uint64_t id_offset_ = 0;  ///< of this ring: numbers that are given grow from ring to ring
   std::optional<Stamp> asked_since_;
   std::optional<Stamp> last_asked_;
   Stamp next_look_{};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -69,9 +70,9 @@ TEST(IceModel, KnowsTheIceAfterTwoDrawsAndAimsTheThird) {
     miss.add(std::hypot(dx, dy));
     miss_normal.add(dy / std::sqrt(aim.covariance.yy_m2));
   }
-  RecordProperty("friction_rms", std::to_string(friction.rms()));
-  RecordProperty("curl_rms", std::to_string(curl.rms()));
-  RecordProperty("miss_rms", std::to_string(miss.rms()));
+  std::printf("%d sessions: friction %.2f %% RMS, %.2f %% at worst; curl %.2f %%, %.2f %%; the third draw %.3f m RMS\n",
+              sessions, 100.0 * friction.rms(), 100.0 * friction.worst, 100.0 * curl.rms(), 100.0 * curl.worst,
+              miss.rms());
   EXPECT_LT(friction.worst, 0.01);
   EXPECT_LT(curl.worst, 0.05);
   EXPECT_LT(miss.rms(), 0.3);

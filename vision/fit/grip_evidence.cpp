@@ -251,14 +251,14 @@ float GripEvidence::wall_light(const GripCover& cover, float expected, float sig
   return std::clamp((right + prior * expected) / (left + prior), 0.2F, 1.2F);
 }
 
-GripEvidence::Presence GripEvidence::presence(const GripCover& cover, float wall_light, float variance) const {
+GripEvidence::Presence GripEvidence::presence(const GripCover& cover, float wall_light) const {
   const Pixels lit = cover.top + wall_light * cover.side;
   const Pixels all = cover.top + cover.side;
   const float seen = (weight * (lit * seen_handle - all * seen_behind)).sum();
   const float foretold =
       (weight * (lit * (lit * handle_handle - 2.0F * all * handle_behind) + all.square() * behind_behind)).sum();
   const float whole = std::max(1e-9F, foretold);
-  return {seen / whole, std::sqrt(variance / whole)};
+  return {seen / whole, 1.0F / std::sqrt(whole)};
 }
 
 double GripEvidence::lumpiness(const GripCover& cover, float wall_light) const {

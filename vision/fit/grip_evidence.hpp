@@ -25,12 +25,12 @@ struct GripEvidence {
   float wall_light(const GripCover& cover, float expected, float sigma, float variance) const;
 
   /// How much of a grip that covers so much is in the picture: 1 where it is as foretold, 0 where there is none; and
-  /// its standard deviation for pixels of this variance.
+  /// its standard deviation for pixels of variance 1.
   struct Presence {
     float share = 0.0F;
     float sigma = 0.0F;
   };
-  Presence presence(const GripCover& cover, float wall_light, float variance) const;
+  Presence presence(const GripCover& cover, float wall_light) const;
 
   /// How much of the misfit lies in few pixels: its mean as a multiple of its median. Noise makes about two.
   double lumpiness(const GripCover& cover, float wall_light) const;

@@ -120,11 +120,16 @@ TEST(SharedFrames, a_writer_that_changed_while_nobody_asked_is_no_error) {
   auto first = std::make_unique<FrameWriter>(segment(), shape, 1);
   SharedCamera reader = camera();
   find(reader, *first, start);
+  first->write(frame(400, start));
+  const auto given = reader.latest(start + 1ms);
+  ASSERT_TRUE(given);
   first.reset();
   FrameWriter second(segment(), shape, 2);
   find(reader, second, start + 60s);
   second.write(frame(1, start + 60010ms));
-  EXPECT_TRUE(reader.latest(start + 60020ms));
+  const auto later = reader.latest(start + 60020ms);
+  ASSERT_TRUE(later);
+  EXPECT_GT(later->id, given->id) << "the second writer's numbers begin anew";
   EXPECT_FALSE(reader.error());
 }
 
