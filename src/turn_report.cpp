@@ -225,15 +225,14 @@ void write_turn(const std::string& folder, const ToldTurn& told) {
   write_picture(out / "far.png", views.far);
   write_picture(out / "above.png", above);
   write_picture(out / "house.png", close);
-  write_picture(out / "overview.png",
-                draw_contact_sheet({{{views.house_before, "skip, near view: the house before"},
-                                     {views.near, "thrower, near view: the sheet's pose before the run"},
-                                     {views.low, "thrower, low view: the last look at the hog line"}},
-                                    {{above, "the turn from above"}},
-                                    {{views.far, "skip, far view: the stone on its way"},
-                                     {views.house_after, "skip, near view: the house afterwards"}},
-                                    {{close, "where it ends"}}},
-                                   1100));
+  write_picture(out / "overview.png", draw_contact_sheet({{{views.house_before, "skip: the house before"},
+                                                           {views.near, "thrower: the sheet's pose"},
+                                                           {views.low, "thrower: the hog line at last"}},
+                                                          {{above, "the turn from above"}},
+                                                          {{views.far, "skip: the stone on its way"},
+                                                           {views.house_after, "skip: the house afterwards"}},
+                                                          {{close, "where it ends"}}},
+                                                         1100));
   std::ofstream stream(out / "turn.json", std::ios::binary);
   stream << turn_json(*told.record) << "\n";
   stream.close();
