@@ -25,11 +25,11 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   hogline::cli::Chosen chosen;
   for (const auto add :
-       {hogline::cli::add_pose, hogline::cli::add_stones, hogline::cli::add_board, hogline::cli::add_throw,
-        hogline::cli::add_demo, hogline::cli::add_doctor, hogline::cli::add_turn, hogline::cli::add_game,
+       {hogline::cli::add_pose,   hogline::cli::add_stones,   hogline::cli::add_board,  hogline::cli::add_throw,
+        hogline::cli::add_demo,   hogline::cli::add_doctor,   hogline::cli::add_turn,   hogline::cli::add_game,
         hogline::cli::add_faults, hogline::cli::add_campaign, hogline::cli::add_sights, hogline::cli::add_skip,
-        hogline::cli::add_track, hogline::cli::add_skips, hogline::cli::add_keys, hogline::cli::add_link,
-        hogline::cli::add_rink, hogline::cli::add_thrower, hogline::cli::add_hold, hogline::cli::add_order})
+        hogline::cli::add_track,  hogline::cli::add_skips,    hogline::cli::add_keys,   hogline::cli::add_link,
+        hogline::cli::add_rink,   hogline::cli::add_thrower,  hogline::cli::add_hold,   hogline::cli::add_order})
     add(app, chosen);
   if (const auto done = hogline::cli::parse(app, argc, argv)) return *done;
   return chosen();

@@ -102,17 +102,41 @@ std::optional<Stamp> stood_since(const std::vector<TrueMoment>& truth, Stamp fro
   return stood && !truth.empty() && truth.back().at - *stood >= still_for ? stood : std::nullopt;
 }
 
+// An arm that is unfolded already skips a state.
+bool not_before(const std::string& state, const std::string& other) {
+  constexpr std::array<const char*, 9> order{"unfold", "rehearse", "measure", "align",  "fold",
+                                             "run",    "release",  "brake",   "stopped"};
+  return std::ranges::find(order, state) >= std::ranges::find(order, other);
+}
+
+// A busy machine may hold a loop up until a drive gives up its master: then the operator presses again.
+std::optional<Stamp> throw_began(TeamScene& scene) {
+  constexpr int attempts = 3;
+  for (int i = 0; i < attempts; ++i) {
+    const Stamp begin = now();
+    scene.skip().start();
+    scene.hand().start();
+    wait_until(
+        [&] { return scene.thrower().told_since(begin, "throwing") || scene.thrower().told_since(begin, "disarmed"); },
+        40s);
+    if (scene.thrower().told_since(begin, "throwing")) return begin;
+    scene.hand().end();
+    scene.skip().end();
+  }
+  return std::nullopt;
+}
+
 bool throw_reaches(TeamScene& scene, const Kill& kill, std::string& problem) {
-  const Stamp begin = now();
-  scene.skip().start();
-  scene.hand().start();
-  if (!wait_until([&] { return scene.thrower().told_since(begin, "throwing").has_value(); }, 60s)) {
+  const auto began = throw_began(scene);
+  if (!began) {
     problem = "no throw began";
     return false;
   }
+  const Stamp begin = *began;
   const auto in_state = [&] {
     for (const Told& t : scene.thrower().told())
-      if (t.at >= begin && ((t.event == "state" && t.what == kill.state) || t.event == "disarmed")) return true;
+      if (t.at >= begin && ((t.event == "state" && not_before(t.what, kill.state)) || t.event == "disarmed"))
+        return true;
     return false;
   };
   wait_until(in_state, 60s);
@@ -125,7 +149,7 @@ std::string words_since(TeamScene& scene, const Kill& kill, Stamp at) {
   std::string words;
   for (Member* m : {&scene.thrower(), &scene.skip()}) {
     if (m->name() == kill.whom && kill.signal == SIGKILL) continue;
-    for (const char* event : {"aborted", "disarmed", "silent", "not thrown"}) {
+    for (const char* event : {"aborted", "disarmed", "not ready", "silent", "not thrown"}) {
       const auto told = m->told_since(at, event);
       if (!told) continue;
       words +=
