@@ -73,8 +73,8 @@ int run_live_skip(const LiveSkipOptions& options) {
       rig, robot, link, clock, [&rig] { return std::make_unique<SkipVision>(rig); },
       [](const char* event, const std::string& what) { tell("skip", event, what); });
   const bool first = run_first(control_priority);
-  tell("skip", "ready",
-       fmt::format("session {}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
+  tell("skip", "session",
+       fmt::format("{}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
   services.ready("waits for its operator");
   InputLines input;
   const Duration period = rig.head.timing.control_period;

@@ -78,8 +78,8 @@ int run_thrower(const ThrowerOptions& options) {
   };
   LiveThrower thrower(rig, robot.devices(operator_switch), link, make_seer,
                       [&rig](const char* event, const std::string& what) { tell(rig.link->robot, event, what); });
-  tell(rig.link->robot, "ready",
-       fmt::format("session {}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
+  tell(rig.link->robot, "session",
+       fmt::format("{}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
   services.ready("waits for its operator and for orders");
   run_control(thrower, rig.drive.timing.control_period, services);
   services.stopping();

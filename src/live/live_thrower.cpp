@@ -114,9 +114,20 @@ void LiveThrower::step(Stamp now, Duration dt) {
   member_->step(now, dt);
   if (phase_ == LivePhase::throwing || member_->throwing()) return watch_throw();
   watch_switch(now);
+  tell_readiness();
   if (phase_ == LivePhase::arming) step_arming(now);
   if (phase_ != LivePhase::armed) return;
   if (const std::string problem = not_ready(now); !problem.empty()) enter(LivePhase::disarmed, problem);
+}
+
+// Also who waits says when a device is lost, or back.
+void LiveThrower::tell_readiness() {
+  switch_->arm(true);
+  const std::string problem = member_->not_ready();
+  switch_->arm(phase_ == LivePhase::armed);
+  if (problem == told_problem_ || phase_ != LivePhase::disarmed) return;
+  told_problem_ = problem;
+  tell_(problem.empty() ? "ready" : "not ready", problem);
 }
 
 void LiveThrower::end() {

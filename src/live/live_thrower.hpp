@@ -52,6 +52,7 @@ class LiveThrower {
   void watch_throw();
   void watch_switch(Stamp now);
   void step_arming(Stamp now);
+  void tell_readiness();
   std::string not_ready(Stamp now) const;
   void enter(LivePhase phase, const std::string& why);
 
@@ -71,6 +72,7 @@ class LiveThrower {
   std::optional<servo::ThrowerState> told_state_;
   std::string told_abort_;
   bool told_release_ = false;
+  std::string told_problem_ = "not asked yet";
 };
 
 }  // namespace hogline

@@ -41,7 +41,7 @@ class Skip {
         states_(machine_.reader<peer::ThrowerState>("thrower_state", "ThrowerState")),
         releases_(machine_.reader<peer::Release>("release", "Release")),
         heard_(machine_.reader<peer::Heartbeat>("heartbeat", "Heartbeat")),
-        beats_(machine_.writer<peer::Heartbeat>("heartbeat", "Heartbeat")),
+        beats_(machine_.punctual_writer<peer::Heartbeat>("heartbeat", "Heartbeat")),
         orders_(machine_.writer<peer::ShotOrder>("shot_order", "ShotOrder")),
         session_(static_cast<std::uint64_t>(WallClock::now().time_since_epoch() / std::chrono::microseconds{1})) {}
 

@@ -202,11 +202,11 @@ bool TeamScene::set_up() {
   const auto thrower_waits = [this] {
     std::string last;
     for (const Told& t : thrower_.told())
-      if (t.event == "ready" || t.event == "disarmed" || t.event == "arming" || t.event == "armed" ||
+      if (t.event == "session" || t.event == "disarmed" || t.event == "arming" || t.event == "armed" ||
           t.event == "throwing") {
         last = t.event;
       }
-    return last == "ready" || last == "disarmed";
+    return last == "session" || last == "disarmed";
   };
   if (!wait_until(thrower_waits, 30s)) return false;
   const Stamp asked = now();
