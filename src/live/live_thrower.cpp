@@ -114,6 +114,7 @@ void LiveThrower::step(Stamp now, Duration dt) {
   member_->step(now, dt);
   if (phase_ == LivePhase::throwing || member_->throwing()) return watch_throw();
   watch_switch(now);
+  tell_refusals();
   tell_readiness();
   if (phase_ == LivePhase::arming) step_arming(now);
   if (phase_ != LivePhase::armed) return;
@@ -128,6 +129,12 @@ void LiveThrower::tell_readiness() {
   if (problem == told_problem_ || phase_ != LivePhase::disarmed) return;
   told_problem_ = problem;
   tell_(problem.empty() ? "ready" : "not ready", problem);
+}
+
+// One more order than are known of, and no throw: whoever stands beside the robot shall know why.
+void LiveThrower::tell_refusals() {
+  if (member_->orders() != known_orders_ && !member_->refused().empty()) tell_("order refused", member_->refused());
+  known_orders_ = member_->orders();
 }
 
 void LiveThrower::end() {

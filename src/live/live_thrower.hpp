@@ -53,6 +53,7 @@ class LiveThrower {
   void watch_switch(Stamp now);
   void step_arming(Stamp now);
   void tell_readiness();
+  void tell_refusals();
   std::string not_ready(Stamp now) const;
   void enter(LivePhase phase, const std::string& why);
 
@@ -73,6 +74,7 @@ class LiveThrower {
   std::string told_abort_;
   bool told_release_ = false;
   std::string told_problem_ = "not asked yet";
+  long known_orders_ = 0;
 };
 
 }  // namespace hogline

@@ -70,6 +70,7 @@ void ThrowerMember::listen(Stamp now) {
 }
 
 void ThrowerMember::take(const hw::ShotOrderMessage& order, Stamp now) {
+  ++orders_;
   const auto verdict = gate_.judge(order, link_.local(order.origin.stamp, now), now);
   refused_ = verdict.reason;
   if (verdict.accepted) refused_ = throwing() ? "another order is being thrown" : not_ready();

@@ -33,6 +33,10 @@ class ThrowerMember {
   /// cleared, a stop that was called before is over, and the jaws close. Precondition: !throwing().
   void load();
   bool throwing() const { return loop_ && !over_; }
+  /// Why the last order was refused; empty when it was not.
+  const std::string& refused() const { return refused_; }
+  /// How many orders came in, whatever became of them.
+  long orders() const { return orders_; }
   /// Empty: an order would be thrown.
   std::string not_ready() const;
   /// Why nobody is there to order or to follow a throw; empty while somebody is.
@@ -65,6 +69,7 @@ class ThrowerMember {
   std::uint64_t order_serial_ = 0;
   std::uint64_t commander_session_ = 0;
   std::string refused_;  ///< why the last order was
+  long orders_ = 0;
   std::string emergency_;
   hw::ThrowerStateMessage told_;
   Stamp next_state_{};

@@ -34,6 +34,8 @@ peer::Header header_now() {
   return {t.sec, t.nanosec, "e"};
 }
 
+constexpr int stopped = 4;  // phase of a thrower state
+
 class Skip {
  public:
   explicit Skip(unsigned domain)
@@ -55,6 +57,9 @@ class Skip {
     peer::take<peer::ThrowerState>(states_, [&](const peer::ThrowerState& m) {
       if (m.phase != phase_) tell("thrower", std::to_string(m.phase) + (m.armed ? " armed " : " ") + m.reason);
       phase_ = m.phase;
+      const bool refused = ordered_ && m.order_serial == order_serial_ && m.phase == stopped && !m.reason.empty();
+      if (refused) tell("refused", m.reason);
+      ordered_ = ordered_ && !refused;
       if (!ordered_ && m.armed && beats_heard_ > 20) order(m.origin.session);
     });
     peer::take<peer::Release>(releases_, [&](const peer::Release& m) {
@@ -74,7 +79,7 @@ class Skip {
   void order(std::uint64_t thrower_session) {
     peer::ShotOrder order;
     order.header = header_now();
-    order.origin = {"skip", session_, 1};
+    order.origin = {"skip", session_, ++order_serial_};
     order.thrower_session = thrower_session;
     order.shot = 1;
     order.speed_mps = 2.25;
@@ -94,6 +99,7 @@ class Skip {
   int beats_heard_ = 0;
   int phase_ = -1;
   bool ordered_ = false;
+  std::uint64_t order_serial_ = 0;
   peer::Echo echo_;
 };
 
