@@ -132,6 +132,11 @@ int run_order(const OrderOptions& options) {
   listen_for_the_end();
   const config::DeviceRig rig = config::load_device_rig(options.rig);
   if (!rig.link) throw config::ConfigError(rig.rig.file, 0, "link", "", "missing; the order goes over it");
+  if (rig.link->robot != "skip") {
+    throw config::ConfigError(rig.rig.file, 0, "link.robot", rig.link->robot,
+                              "must be skip: nobody else's orders are thrown");
+  }
+  tell(rig.link->robot, "waiting", "for the thrower to be heard, and armed");
   Commander commander(rig, options);
   while (commander.step() && !asked_to_end()) std::this_thread::sleep_for(5ms);
   return commander.thrown() ? ExitStatus::success : ExitStatus::not_achieved;

@@ -70,13 +70,17 @@ void add_order(CLI::App& app, Chosen& chosen) {
   OrderOptions& options = *kept;
   auto* order = app.add_subcommand("order", "one shot ordered by hand over the team's link");
   order->add_option("--rig", options.rig, "rig file (YAML) with a link section: the robot to order as")->required();
-  order->add_option("--speed", options.speed_mps, "of the stone at release, m/s")->capture_default_str();
+  order->add_option("--speed", options.speed_mps, "of the stone at release, m/s")
+      ->capture_default_str()
+      ->check(CLI::Validator(between(0.5, 5.0), "0.5 to 5.0"));
   order->add_option("--heading-deg", options.heading_deg, "of the shot's line, counter-clockwise from down-ice")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Validator(between(-8.0, 8.0), "-8.0 to 8.0"));
   order
       ->add_option("--spin", options.spin_radps,
                    "the stone's rate of turn at release, rad/s, counter-clockwise positive")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Validator(between(-6.0, 6.0), "-6.0 to 6.0"));
   order->add_option("--wait", options.wait_s, "how long the thrower may take to be armed, s")
       ->capture_default_str()
       ->check(CLI::Validator(between(0.1, 86400.0), "0.1 to 86400.0"));
@@ -85,7 +89,7 @@ void add_order(CLI::App& app, Chosen& chosen) {
       "THE THROWER MOVES if its operator has armed it. When this program ends before the throw does, the robot stops.\n"
       "Do not run it for a robot whose own program is running.\n"
       "Example:\n"
-      "  hogline order --rig config/rigs/skip_link.yaml --speed 2.1 --spin -1.5\n"
+      "  hogline order --rig config/rigs/skip_live.yaml --speed 2.1 --spin -1.5\n"
       "Exit status: 0 the stone was let go, 1 it was not, 2 wrong use or configuration, 3 something outside failed.");
   order->callback([kept, &chosen] { chosen = [kept] { return run_order(*kept); }; });
 }

@@ -102,8 +102,11 @@ void add_game(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"));
   add_robots(game, options.team);
-  game->add_flag("--outcome-model", options.outcome_model,
-                 "no robots: FCV1 with an ice of its own and a thrower's errors, thousands of times faster");
+  auto* model =
+      game->add_flag("--outcome-model", options.outcome_model,
+                     "no robots: FCV1 with an ice of its own and a thrower's errors, thousands of times faster");
+  for (const char* robots : {"--rig", "--skip-rig", "--scenario", "--seer", "--skip-hz"})
+    model->excludes(game->get_option(robots));
   game->add_option("--out", options.out, "folder for game.jsonl, game.dcl2 and throws.csv")->capture_default_str();
   game->footer(
       "Examples:\n"

@@ -146,8 +146,15 @@ class WrongUse(unittest.TestCase):
                       ["campaign", "--throws", "1", "--per-fault", "2"],
                       ["campaign", "--throws", "1", "--tee-draws", "--speed", "2"],
                       ["campaign", "--throws", "1", "--faults", "all"],
+                      ["game", "--outcome-model", "--rig", RIG],
                       ["pose", "--rig", RIG, "--camera", "near", "--rate", "30", SCENE]):
             self.refuses(run(*words), words[0], "--help")
+
+    def test_orders_that_nobody_would_throw(self):
+        rig = os.path.join(SOURCE, "config/rigs/skip_live.yaml")
+        for words in (["--speed", "99"], ["--speed", "-1"], ["--heading-deg", "80"], ["--spin", "nan"]):
+            self.refuses(run("order", "--rig", rig, *words), words[0])
+        self.refuses(run("order", "--rig", os.path.join(SOURCE, "config/rigs/thrower.yaml")), "link.robot", "skip")
 
     def test_what_is_missing(self):
         self.refuses(run("campaign"), "--throws", "missing")
