@@ -37,6 +37,10 @@ class CrowdScreening {
   JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,
                       const std::vector<NearerStone>& known, const Light& granite);
 
+  JudgedStone glimpse_from_starts(const StonePicture& picture, const StoneCandidate& candidate,
+                                  const std::vector<NearerStone>& known, const Light& granite,
+                                  const std::optional<Foreground>& before);
+
   TeamHues teams_;
   HandleSearch handles_;
   StoneFitter fitter_;

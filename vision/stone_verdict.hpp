@@ -15,8 +15,9 @@ namespace hogline::vision {
 struct JudgedStone {
   StoneCandidate candidate;
   FittedStone fit;
-  std::string doubt;      ///< empty: a stone; else why it is none
-  bool glimpsed = false;  ///< judged with the club's granite known
+  std::string doubt;                      ///< empty: a stone; else why it is none
+  bool glimpsed = false;                  ///< judged with the club's granite known
+  std::optional<Foreground> before = {};  ///< what somebody hides of it, where it was left out
 };
 
 /// Why a fitted candidate is no stone, by itself: its "granite" is not grey or too dark or too light, its "handle" is

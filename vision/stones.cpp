@@ -149,7 +149,8 @@ void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedSt
   const auto granite = clubs_granite(stones);
   std::vector<StoneStart> starts;
   for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt});
+    if (!s.doubt.empty()) continue;
+    starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt, s.before ? &*s.before : nullptr});
   }
   fitter.begin(picture, starts, {});
   const StoneFitResult& result = fitter.run();

@@ -92,6 +92,7 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
   for (const StoneStart& start : starts) {
     stones_.emplace_back(picture, look_, start.place, options.pixels);
     if (start.granite) stones_.back().expect_granite(*start.granite);
+    if (start.before != nullptr) stones_.back().leave_out(*start.before);
   }
   settle_surroundings();
   for (StoneModel& s : stones_) s.find_colours(look_);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/fit/foreground.hpp"
 #include "vision/fit/stone_model.hpp"
 
 namespace hogline::vision {
@@ -50,6 +51,7 @@ struct StoneFitOptions {
 struct StoneStart {
   Eigen::Vector2d place;
   std::optional<Light> granite = {};
+  const Foreground* before = nullptr;  ///< what somebody hides of it, where that is known; used by begin()
 };
 
 /// Keeps its memory from fit to fit.

@@ -36,6 +36,7 @@ StoneModel::StoneModel(const StonePicture& picture, const SharedLook& look, cons
   const float middle = seen_.count() > 0 ? seen_.y.mean() : 0.0F;
   shade_ = (seen_.y - middle) / shade_px;
   weight_.setOnes(seen_.count());
+  open_.setOnes(seen_.count());
   grip_.setZero(seen_.count());
 }
 
@@ -68,7 +69,14 @@ void StoneModel::look_behind(const SharedLook& look) {
     looked_with_ = numbers;
   }
   if (coloured_) leave_out_grip(source_, stone, eye_, handle_colour(), seen_);
+  seen_.usable *= open_;
   grip_.setZero(seen_.count());
+}
+
+void StoneModel::leave_out(const Foreground& before) {
+  for (Eigen::Index i = 0; i < seen_.count(); ++i) {
+    if (before.hides(static_cast<int>(seen_.x[i]), static_cast<int>(seen_.y[i]))) open_[i] = 0.0F;
+  }
 }
 
 void StoneModel::expect_granite(const Light& granite) {

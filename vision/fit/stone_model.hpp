@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "vision/fit/foreground.hpp"
 #include "vision/fit/stone_look.hpp"
 #include "vision/fit/stone_patch.hpp"
 
@@ -37,6 +38,9 @@ class StoneModel {
   void look_behind(const SharedLook& look);
   /// Leaves out the pixels that a nearer stone covers, and those beside the own handle that its grip seems to cover.
   void hide_behind(const NearerStone& nearer, const SharedLook& look);
+
+  /// Leaves out, for good, what somebody hides.
+  void leave_out(const Foreground& before);
 
   /// What granite looks like is known from the club's other stones.
   void expect_granite(const Light& granite);
@@ -101,6 +105,7 @@ class StoneModel {
   PixelColours light_;   ///< brightness, red less brightness, blue less brightness
   PixelColours behind_;  ///< the same
   Pixels shade_;         ///< granite darkens downwards
+  Pixels open_;          ///< 0: somebody hides it; else 1
   Pixels grip_;          ///< 1: a nearer stone's grip may cover it; else 0
   Pixels used_;          ///< 1 or 0
   Pixels weight_;

@@ -1,0 +1,110 @@
+#include "vision/fit/foreground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hogline::vision {
+namespace {
+
+constexpr double over_rim_m = 0.10;   // a grip ends below it
+constexpr int beyond_px = 3;          // the stone's own blur and shadow
+constexpr double ice_light = 0.72;    // of white ice: brighter is ice or its glare
+constexpr double ice_colour = 0.15;   // spread of the channels: more is no ice in shade
+constexpr double as_granite = 0.40;   // of granite's light: nearer to it can not be told from it
+constexpr double alike = 0.05;        // noise
+constexpr double alike_share = 0.12;  // of the light
+constexpr double follow = 0.3;        // how fast the run's colour follows what it meets
+constexpr int blur_columns = 2;
+constexpr int fewest_rows = 2;
+
+double brightness(const Light& light) { return 0.114 * light[0] + 0.587 * light[1] + 0.299 * light[2]; }
+
+struct Extent {
+  int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
+  void add(const Eigen::Vector2d& p) {
+    left = std::min(left, static_cast<int>(std::floor(p.x())));
+    right = std::max(right, static_cast<int>(std::ceil(p.x())));
+    top = std::min(top, static_cast<int>(std::floor(p.y())));
+    bottom = std::max(bottom, static_cast<int>(std::ceil(p.y())));
+  }
+};
+
+cv::Rect covered_by(const StonePicture& picture, const Eigen::Vector2d& place) {
+  const Bearing bearing = bearing_of(place, picture.eye());
+  if (bearing.range_m < 2.0 * picture.shape.body_radius_m) return {};
+  Extent all;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 12.0;
+    for (const Eigen::Vector3d& p : {body_outline_point(place, picture.shape, picture.eye(), angle),
+                                     circle_point(place, bearing, picture.shape.handle_radius_m,
+                                                  picture.shape.handle_height_m + over_rim_m, angle)}) {
+      const auto pixel = picture.camera.project(p);
+      if (!pixel) return {};
+      all.add(*pixel);
+    }
+  }
+  const cv::Rect area(cv::Point(all.left - blur_columns, all.top - beyond_px),
+                      cv::Point(all.right + blur_columns + 1, all.bottom + beyond_px + 1));
+  return area & cv::Rect(0, 0, picture.bgr.cols, picture.bgr.rows);
+}
+
+bool may_be_ice(const Light& light) {
+  return brightness(light) > ice_light && light.maxCoeff() - light.minCoeff() < ice_colour;
+}
+
+}  // namespace
+
+Foreground::Foreground(const StonePicture& picture, const Eigen::Vector2d& place, const Light& granite,
+                       const TeamHues& teams)
+    : granite_(granite), teams_(teams), area_(covered_by(picture, place)) {
+  if (area_.empty()) return;
+  const PatchSource source(picture, place);
+  const auto columns = static_cast<std::size_t>(area_.width);
+  std::vector<int> above(columns);
+  std::vector<int> below(columns);
+  int hidden = 0;
+  for (std::size_t c = 0; c < columns; ++c) {
+    const int x = area_.x + static_cast<int>(c);
+    above[c] = end_of_run(source, x, area_.y, area_.br().y, 1);
+    below[c] = end_of_run(source, x, area_.br().y - 1, area_.y - 1, -1) + 1;
+    hidden += above[c] > area_.y + beyond_px || below[c] < area_.br().y - beyond_px ? 1 : 0;
+  }
+  share_ = static_cast<double>(hidden) / static_cast<double>(columns);
+  above_ = above;
+  below_ = below;
+  for (std::size_t c = 0; c < columns; ++c) {
+    const std::size_t last = std::min(columns - 1, c + blur_columns);
+    for (std::size_t k = c < blur_columns ? 0 : c - blur_columns; k <= last; ++k) {
+      above_[c] = std::max(above_[c], above[k]);
+      below_[c] = std::min(below_[c], below[k]);
+    }
+  }
+}
+
+bool Foreground::may_be_stone(const Light& light) const {
+  if ((light - granite_).norm() < as_granite * granite_.norm()) return true;
+  return has_a_teams_hue({static_cast<float>(light[2]), static_cast<float>(light[1]), static_cast<float>(light[0])},
+                         teams_);
+}
+
+int Foreground::end_of_run(const PatchSource& source, int x, int from, int to, int step) const {
+  Light run = source.at(x, from).matrix().cast<double>();
+  if (may_be_ice(run) || may_be_stone(run)) return from;
+  int y = from;
+  for (; y != to; y += step) {
+    const Light light = source.at(x, y).matrix().cast<double>();
+    if ((light - run).norm() > alike + alike_share * run.norm()) break;
+    run += follow * (light - run);
+  }
+  if (std::abs(y - from) < beyond_px + fewest_rows) return from;
+  return y == to ? y : y + step;
+}
+
+bool Foreground::hides(int x, int y) const {
+  if (x < area_.x || x >= area_.br().x || share_ == 0.0) return false;
+  const auto c = static_cast<std::size_t>(x - area_.x);
+  return y < above_[c] || y >= below_[c];
+}
+
+}  // namespace hogline::vision

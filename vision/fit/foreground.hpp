@@ -1,0 +1,40 @@
+// What stands before a stone and is no stone: legs from below, arms and brooms from above.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "vision/detect/stone_team.hpp"
+#include "vision/fit/stone_patch.hpp"
+
+namespace hogline::vision {
+
+/// Somebody's leg is seen below a stone's foot, too, and goes up before it in its own colour; an arm comes down the
+/// same way. In each column of the picture, so much is hidden as goes on in the colour that is seen below the stone, or
+/// above its grip, where that is neither ice nor granite nor has a handle's hue.
+class Foreground {
+ public:
+  /// Looks about `place` and what a stone there would cover, a little to all sides. `granite` is the club's.
+  Foreground(const StonePicture& picture, const Eigen::Vector2d& place, const Light& granite, const TeamHues& teams);
+
+  /// Of the picture's pixels.
+  bool hides(int x, int y) const;
+  /// Share of the columns in which something is hidden.
+  double share() const { return share_; }
+
+ private:
+  /// Of one column, from the row where it begins: how far the colour goes on. `step` is down or up the picture.
+  int end_of_run(const PatchSource& source, int x, int from, int to, int step) const;
+
+  bool may_be_stone(const Light& light) const;
+
+  Light granite_;
+  TeamHues teams_;
+  cv::Rect area_;
+  std::vector<int> above_;  ///< of each column: rows before it are hidden
+  std::vector<int> below_;  ///< rows from it on are hidden
+  double share_ = 0.0;
+};
+
+}  // namespace hogline::vision
