@@ -19,6 +19,7 @@ constexpr std::array starts{0.0, -1.0, 1.0, -2.0};  // steps along the line of s
 constexpr double rows_a_step = 2.0;
 constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
+constexpr double well_told = 0.92;
 constexpr double least_foreground = 0.1;  // of the columns: less is noise
 constexpr double most_foreground = 0.7;
 
@@ -139,6 +140,11 @@ void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedS
   }
 }
 
+void CrowdScreening::look_at(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+                             std::vector<JudgedStone>& stones) {
+  if (const auto granite = clubs_granite(stones)) glimpse_all(picture, candidates, *granite, stones);
+}
+
 // The best first: where several come out in one place, it keeps it.
 void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
                                  const Light& granite, std::vector<JudgedStone>& stones) {
@@ -152,8 +158,23 @@ void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<
     return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
   });
   for (JudgedStone& s : glimpsed) {
-    if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = "another stone stands there";
+    if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = no_room;
     stones.push_back(s);
+  }
+}
+
+// A fit of each by itself may have gone where a neighbour's handle or granite pulled it.
+void CrowdScreening::place_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  const auto granite = clubs_granite(stones);
+  if (!granite) return;
+  for (JudgedStone& s : stones) {
+    if (!s.doubt.empty() || s.fit.told > well_told) continue;
+    std::vector<NearerStone> others;
+    for (const JudgedStone& other : stones) {
+      if (&other != &s && other.doubt.empty()) others.push_back({other.fit.place, other.fit.handle});
+    }
+    const JudgedStone placed = glimpse_from_starts(picture, s.candidate, others, *granite, s.before);
+    if (placed.doubt.empty() && is_better(placed, s)) s.fit = placed.fit;
   }
 }
 
@@ -179,7 +200,7 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
     const FittedStone& fit = fitter_.run().stones[0];
     const JudgedStone seen{start, fit, doubt_of_glimpse(start, fit, granite), true, before};
     if (steps == starts.front() || is_better(seen, best)) best = seen;
-    if (best.doubt.empty()) break;
+    if (best.doubt.empty() && best.fit.told > well_told) break;
   }
   return best;
 }

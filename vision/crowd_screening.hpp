@@ -30,6 +30,13 @@ class CrowdScreening {
   /// and legs hide left out. `stones` grows.
   void look_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
+  /// Stones that are not well told are fitted again from several places, with all the others known.
+  void place_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
+
+  /// The same of these candidates alone.
+  void look_at(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
+               std::vector<JudgedStone>& stones);
+
  private:
   bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
   void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,

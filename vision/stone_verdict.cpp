@@ -93,6 +93,7 @@ std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone&
   if (fit.told < least_told || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
   if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
   if (!is_coloured(fit.handle)) return "its handle has no colour";
+  if (fit.handle_contrast < least_handle_contrast) return "no handle stands out";
   if ((fit.granite - granite).norm() > 0.6 * granite.norm()) {
     return "its granite is not the others'";
   }
@@ -150,7 +151,7 @@ void part_overlapping(const StonePicture& picture, std::vector<JudgedStone>& sto
       if (!stones[j].doubt.empty()) continue;
       if (!stand_in_one_place(stones[i].fit.place, stones[j].fit.place, picture)) continue;
       JudgedStone& worse = quality(stones[i]) < quality(stones[j]) ? stones[i] : stones[j];
-      worse.doubt = "another stone stands there";
+      worse.doubt = no_room;
     }
   }
 }

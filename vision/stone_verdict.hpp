@@ -37,6 +37,9 @@ bool is_hopeless(const Light& granite);
 /// Nearer than two stones can stand, even if they were a pixel farther apart along the line of sight: 7 cm far away.
 bool stand_in_one_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const StonePicture& picture);
 
+/// The doubt of what a better one leaves no room for.
+inline constexpr const char* no_room = "another stone stands there";
+
 /// Of those that stand in one place the better keeps it. Marks the others.
 void part_overlapping(const StonePicture& picture, std::vector<JudgedStone>& stones);
 

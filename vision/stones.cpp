@@ -21,6 +21,8 @@ constexpr double beside_m = 0.05;        // its centre beyond the sideline by mo
 constexpr double look_around_m = 0.15;
 constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
 constexpr double alike = 0.15;       // of the light's difference from ice
+constexpr int most_settlings = 2;
+constexpr double made_way_m = 0.30;
 
 std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
   std::vector<Eigen::Vector2d> places;
@@ -42,6 +44,39 @@ std::string doubt_of_a_person(const StonePicture& picture, const JudgedStone& st
 
 }  // namespace
 
+/// What all of them together have left of the stones.
+struct Settling {
+  std::vector<StoneSighting> stones;
+  std::vector<StoneCandidate> again;  ///< that fell, and those that had to make way for them
+};
+
+namespace {
+
+// A fit from other places, with the rest known, may yet find a stone; somebody who goes on or paint stays what it is.
+std::vector<StoneCandidate> to_be_looked_at(const std::vector<JudgedStone>& stones, const std::vector<bool>& believed,
+                                            const std::vector<bool>& refused_for_good) {
+  std::vector<StoneCandidate> again;
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    if (!believed[i] || stones[i].doubt.empty()) continue;
+    if (!refused_for_good[i]) again.push_back(stones[i].candidate);
+    for (std::size_t j = 0; j < stones.size(); ++j) {
+      const bool made_way = !believed[j] && stones[j].doubt == no_room;
+      if (made_way && (stones[j].fit.place - stones[i].fit.place).norm() < made_way_m) {
+        again.push_back(stones[j].candidate);
+      }
+    }
+  }
+  return again;
+}
+
+std::vector<bool> believed_of(const std::vector<JudgedStone>& stones) {
+  std::vector<bool> believed;
+  for (const JudgedStone& s : stones) believed.push_back(s.doubt.empty());
+  return believed;
+}
+
+}  // namespace
+
 struct StoneFinder::Impl {
   explicit Impl(const StonesSetup& stones_setup)
       : setup(stones_setup),
@@ -51,6 +86,7 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   std::string unusable(const cv::Mat& image) const;
+  Settling settle(const StonePicture& picture, const StoneArea& area, std::vector<JudgedStone>& stones);
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
@@ -87,18 +123,18 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   impl_->screening.tell_apart(picture, stones);
   part_overlapping(picture, stones);
   impl_->screening.look_again(picture, stones);
+  impl_->screening.place_again(picture, stones);
   part_overlapping(picture, stones);
 
-  impl_->refine(picture, stones);
-  compare_granite(stones);
-  part_overlapping(picture, stones);
+  Settling settled = impl_->settle(picture, area, stones);
+  for (int round = 1; round < most_settlings && !settled.again.empty(); ++round) {
+    impl_->screening.look_at(picture, settled.again, stones);
+    part_overlapping(picture, stones);
+    settled = impl_->settle(picture, area, stones);
+  }
 
-  const std::vector<Eigen::Vector2d> places = places_of(stones);
-  for (JudgedStone& s : stones) {
-    if (s.doubt.empty() && !area.contains(s.fit.place)) s.doubt = "not on this sheet";
-    StoneSighting sighting = sighting_of(s, impl_->setup.teams);
-    if (s.doubt.empty()) s.doubt = last_doubt(picture, s, places, sighting);
-    if (s.doubt.empty()) seen.stones.push_back(sighting);
+  seen.stones = settled.stones;
+  for (const JudgedStone& s : stones) {
     if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
@@ -142,6 +178,28 @@ std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
     sighting.handle_sigma_rad = handle.sigma_rad;
   }
   return {};
+}
+
+Settling StoneFinder::Impl::settle(const StonePicture& picture, const StoneArea& area,
+                                   std::vector<JudgedStone>& stones) {
+  const std::vector<bool> believed = believed_of(stones);
+  refine(picture, stones);
+  compare_granite(stones);
+  part_overlapping(picture, stones);
+  const std::vector<Eigen::Vector2d> places = places_of(stones);
+  std::vector<bool> for_good(stones.size(), false);
+  Settling settled;
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    JudgedStone& s = stones[i];
+    if (!s.doubt.empty()) continue;
+    if (!area.contains(s.fit.place)) s.doubt = "not on this sheet";
+    StoneSighting sighting = sighting_of(s, setup.teams);
+    if (s.doubt.empty()) s.doubt = last_doubt(picture, s, places, sighting);
+    if (s.doubt.empty()) settled.stones.push_back(sighting);
+    for_good[i] = !s.doubt.empty();
+  }
+  settled.again = to_be_looked_at(stones, believed, for_good);
+  return settled;
 }
 
 // All together: stones that hide each other, and the shape they share.
