@@ -20,6 +20,7 @@ constexpr double rows_a_step = 2.0;
 constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
 constexpr double well_told = 0.92;
+constexpr double another_place_m = 0.04;
 constexpr double least_foreground = 0.1;  // of the columns: less is noise
 constexpr double most_foreground = 0.7;
 
@@ -174,7 +175,8 @@ void CrowdScreening::place_again(const StonePicture& picture, std::vector<Judged
       if (&other != &s && other.doubt.empty()) others.push_back({other.fit.place, other.fit.handle});
     }
     const JudgedStone placed = glimpse_from_starts(picture, s.candidate, others, *granite, s.before);
-    if (placed.doubt.empty() && is_better(placed, s)) s.fit = placed.fit;
+    const bool elsewhere = (placed.fit.place - s.fit.place).norm() > another_place_m;
+    if (placed.doubt.empty() && elsewhere && is_better(placed, s)) s.fit = placed.fit;
   }
 }
 
@@ -193,12 +195,13 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
                                                 const std::optional<Foreground>& before) {
   StoneFitOptions options = careful_look();
   options.nearer = known;
+  const bool in_plain_sight = !before && !may_be_hidden(candidate.place, known, picture.eye().head<2>());
   JudgedStone best;
   for (const double steps : starts) {
     const StoneCandidate start = moved_away(picture, candidate, steps);
     fitter_.begin(picture, {{start.place, granite, before ? &*before : nullptr}}, options);
     const FittedStone& fit = fitter_.run().stones[0];
-    const JudgedStone seen{start, fit, doubt_of_glimpse(start, fit, granite), true, before};
+    const JudgedStone seen{start, fit, doubt_of_glimpse(start, fit, granite, in_plain_sight), true, before};
     if (steps == starts.front() || is_better(seen, best)) best = seen;
     if (best.doubt.empty() && best.fit.told > well_told) break;
   }

@@ -80,7 +80,7 @@ StonesPercept StoneSequence::Impl::look_at_all(const cv::Mat& image, Stamp stamp
   last.reset();
   if (!seen.ok) return seen;
   for (const StonesSketch::Candidate& c : sketch.candidates) {
-    if (c.doubt.empty()) known.push_back({{c.votes, c.fit, {}, c.glimpsed}, stamp});
+    if (c.doubt.empty()) known.push_back({{c.votes, c.fit, {}, c.glimpsed, c.before}, stamp});
   }
   last = stamp;
   return seen;

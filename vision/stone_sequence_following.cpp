@@ -114,7 +114,10 @@ void StoneSequence::Impl::fit_together(const StonePicture& picture, const StoneF
   for (const JudgedStone* s : stones) before.push_back(*s);
   const auto granite = clubs_granite(before);
   std::vector<StoneStart> starts;
-  for (const JudgedStone* s : stones) starts.push_back({s->fit.place, s->glimpsed ? granite : std::nullopt});
+  for (JudgedStone* s : stones) {
+    if (s->before && granite) s->before.emplace(picture, s->fit.place, *granite, setup.teams);  // who stood there moves
+    starts.push_back({s->fit.place, s->glimpsed ? granite : std::nullopt, s->before ? &*s->before : nullptr});
+  }
   fitter.begin(picture, starts, options);
   const StoneFitResult& result = fitter.run();
   std::vector<NearerStone> others = options.nearer;
@@ -123,8 +126,9 @@ void StoneSequence::Impl::fit_together(const StonePicture& picture, const StoneF
   for (std::size_t i = 0; i < stones.size(); ++i) {
     JudgedStone& s = *stones[i];
     s.fit = result.stones[i];
-    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite)
-                                    : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, eye));
+    const bool behind_another = may_be_hidden(s.fit.place, others, eye);
+    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
+                                    : doubt_of(s.candidate, s.fit, behind_another);
   }
   // What is no stone, or somebody's legs before one, would tell something else of it.
   const bool all_well =

@@ -28,10 +28,15 @@ constexpr double grip_reach_m = 0.16;    // along: a little height is much range
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
 constexpr double most_drift_m = 0.16;
-constexpr int fewest_telling = 12;     // pixels that a stone changes
-constexpr int fewest_handle_told = 5;  // of those that are as foretold, on the handle
+constexpr int fewest_telling = 12;          // pixels that a stone changes
+constexpr int fewest_handle_told = 5;       // of those that are as foretold, on the handle
+constexpr double least_handle_told = 0.08;  // of the telling ones; of a stone in full view a third
 constexpr double least_told = 0.75;
+constexpr double told_of_few = 0.5;        // over the root of their number: of few pixels more must be right
 constexpr double least_told_alone = 0.80;  // of a stone in full view 0.91 and more
+constexpr double well_told = 0.92;
+constexpr int many_telling = 60;
+constexpr double least_told_at_last = 0.90;  // of what is alone and was doubted at first
 constexpr double well_explained_glimpse = 0.90;
 constexpr double least_distance_m = 0.25;  // centres of touching stones are 0.29 m apart
 constexpr double most_pixel_m = 0.08;
@@ -81,23 +86,28 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
   if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
   if (fit.telling > 0 && fit.told < least_told_alone) return "what is seen is not a stone's";
+  if (fit.handle_told < least_handle_told * fit.telling) return "nothing of a handle";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
   if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
   return {};
 }
 
-std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite) {
+std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite,
+                             bool in_plain_sight) {
   if (!fit.ok) return fit.reason;
   if (fit.telling < fewest_telling) return "too little of it can be seen";
-  if (fit.told < least_told || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
+  const double least = in_plain_sight ? least_told_at_last : least_told + told_of_few / std::sqrt(fit.telling);
+  if (fit.told < least || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
   if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
   if (!is_coloured(fit.handle)) return "its handle has no colour";
-  if (fit.handle_contrast < least_handle_contrast) return "no handle stands out";
+  if (fit.handle_contrast < faint) return "no handle stands out";
   if ((fit.granite - granite).norm() > 0.6 * granite.norm()) {
     return "its granite is not the others'";
   }
-  if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
+  const bool beyond_doubt = fit.told > well_told && fit.explained > well_told && fit.telling > many_telling;
+  if (!beyond_doubt && (fit.place - candidate.place).norm() > most_drift_m)
+    return "the fit left the place of the votes";
   return {};
 }
 

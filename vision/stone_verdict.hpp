@@ -26,7 +26,9 @@ struct JudgedStone {
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another);
 
 /// The same of what was fitted with the club's granite known: parts may be hidden, what is left must be a stone's.
-std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite);
+/// `in_plain_sight`: nothing is known that could hide any.
+std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite,
+                             bool in_plain_sight);
 
 /// The middle one of what the believed stones show of it, channel by channel; nothing where none does.
 std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones);

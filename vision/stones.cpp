@@ -135,7 +135,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
 
   seen.stones = settled.stones;
   for (const JudgedStone& s : stones) {
-    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed});
+    if (sketch != nullptr) sketch->candidates.push_back({s.candidate, s.fit, s.doubt, s.glimpsed, s.before});
   }
   if (sketch != nullptr) sketch->boxes = groups.boxes;
   seen.ok = true;
@@ -218,9 +218,9 @@ void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedSt
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;
     s.fit = result.stones[next++];
-    s.doubt = s.glimpsed && granite
-                  ? doubt_of_glimpse(s.candidate, s.fit, *granite)
-                  : doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
+    const bool behind_another = may_be_hidden(s.fit.place, others, picture.eye().head<2>());
+    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
+                                    : doubt_of(s.candidate, s.fit, behind_another);
   }
 }
 

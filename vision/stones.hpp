@@ -29,8 +29,9 @@ struct StonesSketch {
   struct Candidate {
     StoneCandidate votes;
     FittedStone fit;
-    std::string doubt;      ///< empty: a stone; else why it is none
-    bool glimpsed = false;  ///< judged with the club's granite known
+    std::string doubt;                      ///< empty: a stone; else why it is none
+    bool glimpsed = false;                  ///< judged with the club's granite known
+    std::optional<Foreground> before = {};  ///< what somebody hides of it, where it was left out
   };
   std::vector<Candidate> candidates;
 };

@@ -82,15 +82,19 @@ Foreground::Foreground(const StonePicture& picture, const Eigen::Vector2d& place
   }
 }
 
-bool Foreground::may_be_stone(const Light& light) const {
-  if ((light - granite_).norm() < as_granite * granite_.norm()) return true;
+bool Foreground::is_like_granite(const Light& light) const {
+  return (light - granite_).norm() < as_granite * granite_.norm();
+}
+
+bool Foreground::has_a_handles_hue(const Light& light) const {
   return has_a_teams_hue({static_cast<float>(light[2]), static_cast<float>(light[1]), static_cast<float>(light[0])},
                          teams_);
 }
 
+// What is over a stone may be its own grip, and what is below its foot is no handle of its own.
 int Foreground::end_of_run(const PatchSource& source, int x, int from, int to, int step) const {
   Light run = source.at(x, from).matrix().cast<double>();
-  if (may_be_ice(run) || may_be_stone(run)) return from;
+  if (may_be_ice(run) || is_like_granite(run) || (step > 0 && has_a_handles_hue(run))) return from;
   int y = from;
   for (; y != to; y += step) {
     const Light light = source.at(x, y).matrix().cast<double>();

@@ -27,7 +27,8 @@ class Foreground {
   /// Of one column, from the row where it begins: how far the colour goes on. `step` is down or up the picture.
   int end_of_run(const PatchSource& source, int x, int from, int to, int step) const;
 
-  bool may_be_stone(const Light& light) const;
+  bool is_like_granite(const Light& light) const;
+  bool has_a_handles_hue(const Light& light) const;
 
   Light granite_;
   TeamHues teams_;
