@@ -73,12 +73,12 @@ class Sieve {
 
   void settle() {
     tried_.resize(waiting_);
-    handle_distances(stone_, eye_, tried_, handle_);
-    body_distances(stone_, eye_, tried_, body_);
+    handle_px(stone_, eye_, tried_, handle_);
+    body_px(stone_, eye_, tried_, body_);
     tried_.resize(most_pixels);
     for (int i = 0; i < waiting_; ++i) {
-      const float handle = handle_.px[i];
-      const float body = body_.px[i];
+      const float handle = handle_[i];
+      const float body = body_[i];
       if (std::abs(handle) > band_px && std::abs(body) > band_px) continue;
       if (std::max(handle, body) < -band_px) continue;
       full_ = count_ == most_pixels;
@@ -105,8 +105,8 @@ class Sieve {
   Eigen::Vector3d eye_;
   StonePixels& kept_;
   SightLines tried_;
-  DiscDistances handle_;
-  BodyDistances body_;
+  Pixels handle_;
+  Pixels body_;
   std::array<int, most_pixels> columns_{};
   std::array<int, most_pixels> rows_{};
   int waiting_ = 0;
