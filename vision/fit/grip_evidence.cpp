@@ -185,20 +185,12 @@ class Surroundings {
     Eigen::Array3f left;
     Eigen::Array3f right;
     row_ = y;
-    known_ = mean(window_.left, y, -1.0F, left) && mean(window_.right, y, 1.0F, right);
+    const auto at = static_cast<float>(y);
+    known_ = source_.mean_of_three(window_.left, at, -1.0F, 0.0F, left) &&
+             source_.mean_of_three(window_.right, at, 1.0F, 0.0F, right);
     if (!known_) return;
     left_ = weighed_parts(left);
     either_ = weighed_parts(right) - left_;
-  }
-
-  bool mean(float x, int y, float sense, Eigen::Array3f& sum) const {
-    sum.setZero();
-    for (int i = 0; i < 3; ++i) {
-      Eigen::Array3f light;
-      if (!source_.at(x + sense * static_cast<float>(i), static_cast<float>(y), light)) return false;
-      sum += light / 3.0F;
-    }
-    return true;
   }
 
   const PatchSource& source_;

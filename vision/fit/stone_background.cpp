@@ -15,16 +15,8 @@ struct Point {
   Point ahead(float px, const Point& direction) const { return {x + px * direction.x, y + px * direction.y}; }
 };
 
-/// The mean of three samples a pixel apart; false where the picture ends.
 bool mean_light(const PatchSource& source, const Point& from, const Point& step, Eigen::Array3f& mean) {
-  mean.setZero();
-  for (int i = 0; i < 3; ++i) {
-    const Point p = from.ahead(static_cast<float>(i), step);
-    Eigen::Array3f light;
-    if (!source.at(p.x, p.y, light)) return false;
-    mean += light / 3.0F;
-  }
-  return true;
+  return source.mean_of_three(from.x, from.y, step.x, step.y, mean);
 }
 
 /// What is to the left and right of a stone, row by row.
@@ -84,10 +76,8 @@ struct Rim {
 
 class Outline {
  public:
-  Outline(const StonePlace& stone, const Eigen::Vector3d& eye, const StonePixels& pixels) : pixels_(pixels) {
-    handle_distances(stone, eye, pixels.sights, handle_);
-    body_distances(stone, eye, pixels.sights, body_);
-  }
+  Outline(const DiscDistances& handle, const BodyDistances& body, const StonePixels& pixels)
+      : pixels_(pixels), handle_(handle), body_(body) {}
   bool on_far_rim(Eigen::Index i) const { return handle_.px[i] > body_.px[i]; }
   float inside_px(Eigen::Index i) const { return std::max(handle_.px[i], body_.px[i]); }
   Rim rim(Eigen::Index i) const {
@@ -98,15 +88,16 @@ class Outline {
 
  private:
   const StonePixels& pixels_;
-  DiscDistances handle_;
-  BodyDistances body_;
+  const DiscDistances& handle_;
+  const BodyDistances& body_;
 };
 
 }  // namespace
 
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& pixels) {
+void look_behind(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body,
+                 StonePixels& pixels) {
   if (pixels.count() == 0) return;
-  const Outline outline(stone, eye, pixels);
+  const Outline outline(handle, body, pixels);
   const Sides sides(source, pixels);
   pixels.usable.setOnes();
   pixels.behind.setZero();
@@ -122,15 +113,15 @@ void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen
   }
 }
 
-void leave_out_grip(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
+void leave_out_grip(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body, double eye_m,
                     const Light& handle_colour, StonePixels& pixels) {
   if (pixels.count() == 0) return;
-  const Outline outline(stone, eye, pixels);
+  const Outline outline(handle, body, pixels);
   const Eigen::Array3f colour = handle_colour.cast<float>().array();
   for (Eigen::Index i = 0; i < pixels.count(); ++i) {
     if (!(pixels.usable[i] > 0.0F) || !outline.on_far_rim(i) || outline.inside_px(i) > reach_px) continue;
     const Rim rim = outline.rim(i);
-    const float far_px = grip_px(pixels.sights, i, eye.z());
+    const float far_px = grip_px(pixels.sights, i, eye_m);
     if (grip_over(source, rim.at, rim.outward, far_px, colour, pixels.behind.row(i).transpose())) {
       pixels.usable[i] = 0.0F;
     }

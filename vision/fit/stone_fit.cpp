@@ -89,6 +89,7 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
   prior_ = numbers_of(look_);
   if (options.begin_with) look_ = *options.begin_with;
   stones_.clear();
+  stones_.reserve(starts.size());
   for (const StoneStart& start : starts) {
     stones_.emplace_back(picture, look_, start.place, options.pixels);
     if (start.granite) stones_.back().expect_granite(*start.granite);

@@ -57,17 +57,13 @@ StonePlace StoneModel::stands(const SharedLook& look) const {
 }
 
 void StoneModel::look_behind(const SharedLook& look) {
-  const StonePlace stone = stands(look);
-  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
-  const SharedVector numbers = numbers_of(look);
-  if (!looked_behind_ || !same(looked_at_, place_) || !same(looked_with_, numbers)) {
-    vision::look_behind(source_, stone, eye_, seen_);
+  draw(look);
+  if (!looked_behind_) {
+    vision::look_behind(source_, handle_, body_, seen_);
     behind_ = in_parts(seen_.behind);
     looked_behind_ = true;
-    looked_at_ = place_;
-    looked_with_ = numbers;
   }
-  if (coloured_) leave_out_grip(source_, stone, eye_, handle_colour(), seen_);
+  if (coloured_) leave_out_grip(source_, handle_, body_, eye_.z(), handle_colour(), seen_);
   grip_.setZero(seen_.count());
 }
 
@@ -84,18 +80,18 @@ void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) 
   StonePlace grip = front;
   grip.shape.handle_height_m += grip_height_m;
   grip.shape.handle_thickness_m = grip_height_m;
-  DiscDistances handle;
-  BodyDistances body;
-  handle_distances(front, eye_, seen_.sights, handle);
-  body_distances(front, eye_, seen_.sights, body);
-  const Pixels nearest = handle.px.max(body.px);
-  handle_distances(grip, eye_, seen_.sights, handle);
-  handle_distances(stands(look), eye_, seen_.sights, handle_);
+  draw(look);
+  Pixels handle;
+  Pixels body;
+  handle_px(front, eye_, seen_.sights, handle);
+  body_px(front, eye_, seen_.sights, body);
+  const Pixels nearest = handle.max(body);
+  handle_px(grip, eye_, seen_.sights, handle);
   const Light grips = parts_of(nearer.handle);
   const bool alike = !coloured_ || likeness(colours_.row(0).transpose(), grips) > 0.5;
   for (Eigen::Index i = 0; i < seen_.count(); ++i) {
     if (nearest[i] > hidden_px) seen_.usable[i] = 0.0F;
-    if (!(handle.px[i] > 0.0F)) continue;
+    if (!(handle[i] > 0.0F)) continue;
     if (likeness(light_.row(i).cast<double>().transpose(), grips) < least_grip) continue;
     if (alike && handle_.px[i] > -1.0F) {
       grip_[i] = 1.0F;
@@ -130,20 +126,32 @@ StoneModel::Basis StoneModel::Blurred::basis(const Pixels& shade) const {
   return b;
 }
 
-void StoneModel::mix(const SharedLook& look) {
+// Once for each place and look.
+void StoneModel::draw(const SharedLook& look) {
+  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
+  const SharedVector numbers = numbers_of(look);
+  if (drawn_ && same(drawn_at_, place_) && same(drawn_with_, numbers)) return;
   const StonePlace stone = stands(look);
   handle_distances(stone, eye_, seen_.sights, handle_);
   face_distances(stone, eye_, seen_.sights, face_);
   body_distances(stone, eye_, seen_.sights, body_);
-  const auto own_foot = body_.px > handle_.px && body_.height < foot_height && body_.px < near_foot_px;
-  used_ = own_foot.select(0.0F, seen_.usable);
   const auto wall = static_cast<float>(look.wall_light);
   fine_.mix(handle_, face_, body_, static_cast<float>(look.blur_px), wall);
   coarse_.mix(handle_, face_, body_, static_cast<float>(look.colour_blur_px), wall);
+  drawn_ = true;
+  drawn_at_ = place_;
+  drawn_with_ = numbers;
+  looked_behind_ = false;
+}
+
+void StoneModel::choose_pixels() {
+  const auto own_foot = body_.px > handle_.px && body_.height < foot_height && body_.px < near_foot_px;
+  used_ = own_foot.select(0.0F, seen_.usable);
 }
 
 void StoneModel::find_colours(const SharedLook& look) {
-  mix(look);
+  draw(look);
+  choose_pixels();
   const Pixels weights = weight_ * used_;
   for (int part = 0; part < 3; ++part) {
     const Blurred& b = blurred(part);

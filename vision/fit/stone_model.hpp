@@ -85,8 +85,8 @@ class StoneModel {
 
   StonePlace stands(const SharedLook& look) const;
   const Blurred& blurred(int part) const { return part == 0 ? fine_ : coarse_; }
-  void mix(const SharedLook& look);
-  void add_part(int part, const SharedLook& look, const Pixels& weights, Equations& sums);
+  void draw(const SharedLook& look);
+  void choose_pixels();
   void find_residual(int part);
   void find_slopes(int part, const SharedLook& look, bool with_shared);
   void weigh(const Pixels& noise, const Pixels& sizes);
@@ -113,9 +113,10 @@ class StoneModel {
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
   bool coloured_ = false;
-  bool looked_behind_ = false;  ///< from there, with the shape of these numbers
-  Eigen::Vector2d looked_at_ = Eigen::Vector2d::Zero();
-  SharedVector looked_with_ = SharedVector::Zero();
+  bool drawn_ = false;  ///< distances and shares are of this place and look
+  Eigen::Vector2d drawn_at_ = Eigen::Vector2d::Zero();
+  SharedVector drawn_with_ = SharedVector::Zero();
+  bool looked_behind_ = false;  ///< from there
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;
