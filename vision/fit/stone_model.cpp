@@ -104,18 +104,23 @@ void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) 
 void StoneModel::Blurred::mix(const DiscDistances& handle_at, const DiscDistances& face_at,
                               const BodyDistances& body_at, float blur_px, float wall_light) {
   const Eigen::Index count = handle_at.px.size();
-  for (Pixels* p : {&handle, &face, &body, &by_handle, &by_face, &by_body}) p->resize(count);
+  for (Pixels* p : {&plate, &handle, &face, &body, &granite, &by_handle, &by_face, &by_body}) p->resize(count);
   const float sharp = 1.0F / blur_px;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    normal_table.at(handle_at.px[i] * sharp, handle[i], by_handle[i]);
-    normal_table.at(face_at.px[i] * sharp, face[i], by_face[i]);
-    normal_table.at(body_at.px[i] * sharp, body[i], by_body[i]);
+  for (Eigen::Index i = 0; i < count; i += 4) {
+    const auto blurred = [i, sharp](const Pixels& px, Pixels& share, Pixels& by_px) -> Four {
+      Four integral;
+      Four density;
+      normal_table.at(four(px, i) * sharp, integral, density);
+      four(share, i) = integral;
+      four(by_px, i) = density * sharp;
+      return integral;
+    };
+    const Four handle_here = blurred(handle_at.px, handle, by_handle);
+    const Four face_here = blurred(face_at.px, face, by_face);
+    const Four body_here = blurred(body_at.px, body, by_body);
+    four(plate, i) = wall_light * handle_here + (1.0F - wall_light) * face_here;
+    four(granite, i) = (1.0F - handle_here) * body_here;
   }
-  by_handle *= sharp;
-  by_face *= sharp;
-  by_body *= sharp;
-  plate = wall_light * handle + (1.0F - wall_light) * face;
-  granite = (1.0F - handle) * body;
 }
 
 StoneModel::Basis StoneModel::Blurred::basis(const Pixels& shade) const {

@@ -116,7 +116,7 @@ class StoneModel {
   bool drawn_ = false;  ///< distances and shares are of this place and look
   Eigen::Vector2d drawn_at_ = Eigen::Vector2d::Zero();
   SharedVector drawn_with_ = SharedVector::Zero();
-  bool looked_behind_ = false;  ///< from there
+  bool looked_behind_ = false;              ///< from there
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;
