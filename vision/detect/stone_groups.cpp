@@ -230,11 +230,15 @@ void StoneGroupFinder::mark_centres(const Band& band, int columns, cv::Mat& cent
       Rectangle of_all = e.body;
       of_all.right += end - begin - 1;
       if (!e.seen || of_all.count(sums + begin, row_length) < e.least_body) continue;
+      std::array<int, block_px> in_body;
+      std::array<int, block_px> in_handle;
+      e.body.count(sums + begin, row_length, end - begin, in_body.data());
+      e.handle.count(sums + begin, row_length, end - begin, in_handle.data());
       for (int c = begin; c < end; ++c) {
-        if (e.body.count(sums + c, row_length) < e.least_body) continue;
-        if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
-        for (int i = 0; i < size; ++i) {
-          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
+        const auto i = static_cast<std::size_t>(c - begin);
+        if (in_body[i] < e.least_body || in_handle[i] > e.most_handle) continue;
+        for (int row = 0; row < size; ++row) {
+          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + row) + size * c;
           std::fill(out, out + size, std::uint8_t{255});
         }
         cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;

@@ -59,6 +59,14 @@ class StoneGroupFinder {
     int count(const int* sums, int row) const {
       return sums[bottom * row + right] - sums[bottom * row + left] - sums[top * row + right] + sums[top * row + left];
     }
+    /// Of places beside each other.
+    void count(const int* sums, int row, int places, int* counts) const {
+      const int* low_right = sums + bottom * row + right;
+      const int* low_left = sums + bottom * row + left;
+      const int* high_right = sums + top * row + right;
+      const int* high_left = sums + top * row + left;
+      for (int i = 0; i < places; ++i) counts[i] = low_right[i] - low_left[i] - high_right[i] + high_left[i];
+    }
   };
 
   /// What a stone covers whose handle's centre is in the middle of a block, relative to it, in pixels.
