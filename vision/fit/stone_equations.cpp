@@ -15,37 +15,24 @@ constexpr float foretold_share = 0.5F;  // of that change may be left unexplaine
 
 }  // namespace
 
-/// Sums over the pixels: of place and shared numbers, of one part's colours, and what they share.
+/// Normal equations of place and shared numbers.
 struct StoneModel::Equations {
   ModelMatrix normal = ModelMatrix::Zero();
   ModelVector right = ModelVector::Zero();
 
-  /// The first `numbers` slopes without number `none`, which is zero.
-  void add(const Slopes& slopes, int numbers, int none, const Basis& basis, const Pixels& residuals,
-           const Pixels& weights);
+  void add(const ProductSums::Sums& sums, int numbers);
 };
 
 // The colours of this part are eliminated at once: they are its own.
-void StoneModel::Equations::add(const Slopes& slopes, int numbers, int none, const Basis& basis,
-                                const Pixels& residuals, const Pixels& weights) {
+void StoneModel::Equations::add(const ProductSums::Sums& sums, int numbers) {
   Eigen::Matrix<double, 3, model_numbers> shared = Eigen::Matrix<double, 3, model_numbers>::Zero();
-  Eigen::Matrix3d colours = 1e-6 * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d colours_right;
-  for (int i = 0; i < numbers; ++i) {
-    if (i == none) continue;
-    const Pixels weighed = weights * slopes.col(i);
-    right[i] += static_cast<double>((weighed * residuals).sum());
-    for (int j = 0; j <= i; ++j) normal(i, j) += static_cast<double>((weighed * slopes.col(j)).sum());
-    for (int j = 0; j < 3; ++j) shared(j, i) = static_cast<double>((weighed * basis.col(j)).sum());
-  }
-  for (int i = 0; i < 3; ++i) {
-    const Pixels weighed = weights * basis.col(i);
-    colours_right[i] = static_cast<double>((weighed * residuals).sum());
-    for (int j = 0; j < 3; ++j) colours(i, j) += static_cast<double>((weighed * basis.col(j)).sum());
-  }
+  shared.leftCols(numbers) = sums.block(0, first_slope, 3, numbers);
+  right.head(numbers) += sums.col(residual_column).segment(first_slope, numbers);
+  normal.topLeftCorner(numbers, numbers) += sums.block(first_slope, first_slope, numbers, numbers);
+  const Eigen::Matrix3d colours = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
   const Eigen::LDLT<Eigen::Matrix3d> solver(colours);
   normal.triangularView<Eigen::Lower>() -= shared.transpose() * solver.solve(shared);
-  right -= shared.transpose() * solver.solve(colours_right);
+  right -= shared.transpose() * solver.solve(sums.col(residual_column).head<3>());
 }
 
 void StoneModel::linearise(const SharedLook& look, bool with_shared) {
@@ -60,15 +47,16 @@ void StoneModel::linearise(const SharedLook& look, bool with_shared) {
           .sqrt();
   weigh(noise, sizes);
 
-  Equations sums;
+  Equations equations;
+  ProductSums::Sums products;
   for (int part = 0; part < 3; ++part) {
     find_slopes(part, look, with_shared);
-    const Pixels weights = (part == 0 ? 1.0F : colour_weight) * weight_;
-    sums.add(slopes_, with_shared ? model_numbers : 2, part == 0 ? 8 : 7, blurred(part).basis(shade_),
-             residuals_.col(part), weights);
+    const int numbers = with_shared ? model_numbers : 2;
+    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + numbers, products);
+    equations.add(products, numbers);
   }
-  normal_ = sums.normal.selfadjointView<Eigen::Lower>();
-  right_ = sums.right;
+  normal_ = equations.normal.selfadjointView<Eigen::Lower>();
+  right_ = equations.right;
   summarise(sizes, noise);
   find_scale(sizes);
 }
@@ -90,18 +78,24 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
   const Pixels handle = (wall * colour[0] - under) * b.by_handle;
   const Pixels face = (1.0F - wall) * colour[0] * b.by_face;
   const Pixels body = (1.0F - b.handle) * (stone - behind_.col(part)) * b.by_body;
-  slopes_.resize(seen_.count(), model_numbers);
-  slopes_.col(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
-  slopes_.col(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
+  design_.begin(seen_.count());
+  const auto column = [this](int i) { return design_.column(i); };
+  const auto slope = [this](int i) { return design_.column(first_slope + i); };
+  column(0) = b.plate;
+  column(1) = b.granite;
+  column(2) = b.granite * shade_;
+  column(residual_column) = residuals_.col(part);
+  slope(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
+  slope(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
   if (!with_shared) return;
-  slopes_.col(2) = -handle * handle_.part * handle_.by_height;
-  slopes_.col(3) = body * body_.by_radius;
-  slopes_.col(4) = body * body_.by_half_height;
-  slopes_.col(5) = handle * handle_.by_radius + face * face_.by_radius;
-  slopes_.col(6) = (b.handle - b.face) * colour[0];
+  slope(2) = -handle * handle_.part * handle_.by_height;
+  slope(3) = body * body_.by_radius;
+  slope(4) = body * body_.by_half_height;
+  slope(5) = handle * handle_.by_radius + face * face_.by_radius;
+  slope(6) = (b.handle - b.face) * colour[0];
   const auto blur = static_cast<float>(part == 0 ? look.blur_px : look.colour_blur_px);
-  slopes_.col(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
-  slopes_.col(part == 0 ? 8 : 7).setZero();
+  slope(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
+  slope(part == 0 ? 8 : 7).setZero();
 }
 
 // Residuals beyond the scale of the last step count less and less.

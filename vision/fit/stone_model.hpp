@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "vision/fit/product_sums.hpp"
 #include "vision/fit/stone_look.hpp"
 #include "vision/fit/stone_patch.hpp"
 
@@ -80,7 +81,10 @@ class StoneModel {
     Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3> basis(const Pixels& shade) const;
   };
   using Basis = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3>;
-  using Slopes = Eigen::Array<float, Eigen::Dynamic, model_numbers, Eigen::ColMajor, most_pixels, model_numbers>;
+  /// Columns of what a pixel's light depends on: three colours, then what is left unexplained, then place and shared
+  /// numbers.
+  static constexpr int residual_column = 3;
+  static constexpr int first_slope = 4;
   struct Equations;
 
   StonePlace stands(const SharedLook& look) const;
@@ -108,7 +112,7 @@ class StoneModel {
   BodyDistances body_;
   Blurred fine_, coarse_;  ///< for brightness, for colours
   PixelColours residuals_;
-  Slopes slopes_;
+  ProductSums design_;                                 ///< of one part at a time
   Eigen::Matrix3d colours_ = Eigen::Matrix3d::Zero();  ///< rows: handle, granite, its slope; columns as light
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
