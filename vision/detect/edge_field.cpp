@@ -75,8 +75,9 @@ void EdgeField::begin(const cv::Mat& bgr, const WhiteLight& ice, const ResponseC
   columns_ = (bgr.cols + tile_px - 1) / tile_px;
   const int rows = (bgr.rows + tile_px - 1) / tile_px;
   known_.assign(static_cast<std::size_t>(columns_ * rows), 0);
-  x_.create(rows * tile_px, columns_ * tile_px, CV_32F);
-  y_.create(rows * tile_px, columns_ * tile_px, CV_32F);
+  pitch_ = columns_ * tile_px;
+  x_.create(rows * tile_px, pitch_, CV_32F);
+  y_.create(rows * tile_px, pitch_, CV_32F);
   for (std::size_t i = 0; i < 256; ++i) root_[i] = std::sqrt(response.linear(static_cast<std::uint8_t>(i)));
 }
 

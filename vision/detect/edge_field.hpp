@@ -23,23 +23,24 @@ class EdgeField {
 
   /// How much of an edge with this unit normal stands at a pixel and at the next three, `step` (1 or 2) pixels apart
   /// in its row: 0..1; its sense and colour do not count. Outside the picture there are none.
-  FourPlaces edges(float x, float y, int step, float normal_x, float normal_y) {
+  [[gnu::always_inline]] FourPlaces edges(float x, float y, int step, float normal_x, float normal_y) {
     const int column = static_cast<int>(x + 0.5F);
     const int row = static_cast<int>(y + 0.5F);
     const int last = column + 3 * step;
     if (x < 0.0F || y < 0.0F || last >= width_ || row >= height_) return at_border(x, y, step, normal_x, normal_y);
-    const std::uint8_t* known = &known_[static_cast<std::size_t>(row / tile_px * columns_)];
-    if (known[column / tile_px] == 0) compute(column / tile_px, row / tile_px);
-    if (known[last / tile_px] == 0) compute(last / tile_px, row / tile_px);
-    const float* gx = x_.ptr<float>(row) + column;
-    const float* gy = y_.ptr<float>(row) + column;
+    const std::uint8_t* known = &known_[static_cast<std::size_t>((row >> tile_bits) * columns_)];
+    if (known[column >> tile_bits] == 0) compute(column >> tile_bits, row >> tile_bits);
+    if (known[last >> tile_bits] == 0) compute(last >> tile_bits, row >> tile_bits);
+    const float* gx = x_.ptr<float>() + row * pitch_ + column;
+    const float* gy = y_.ptr<float>() + row * pitch_ + column;
     if (step == 1)
       return strength(Eigen::Map<const FourPlaces>(gx), Eigen::Map<const FourPlaces>(gy), normal_x, normal_y);
     return strength({gx[0], gx[2], gx[4], gx[6]}, {gy[0], gy[2], gy[4], gy[6]}, normal_x, normal_y);
   }
 
  private:
-  static constexpr int tile_px = 16;
+  static constexpr int tile_bits = 4;
+  static constexpr int tile_px = 1 << tile_bits;
   static constexpr float noise_floor = 0.227F;  // of a full edge
 
   static FourPlaces strength(const FourPlaces& gx, const FourPlaces& gy, float normal_x, float normal_y) {
@@ -57,6 +58,7 @@ class EdgeField {
   int columns_ = 0;  ///< of tiles
   std::array<float, 256> root_{};
   std::vector<std::uint8_t> known_;  ///< tiles that are computed
+  int pitch_ = 0;                    ///< of the gradient's rows
   cv::Mat x_, y_;  ///< CV_32F, gradient of all channels together, turned to one sense; 1 is a full edge
 };
 

@@ -114,7 +114,7 @@ void StoneVoter::vote(const Places& places, float least, const StoneOutline& out
   }
 }
 
-FourPlaces StoneVoter::edges(const Places& places, const OutlineMark& mark) {
+[[gnu::always_inline]] inline FourPlaces StoneVoter::edges(const Places& places, const OutlineMark& mark) {
   return field_.edges(static_cast<float>(places.x) + mark.x, static_cast<float>(places.y) + mark.y, places.step,
                       mark.normal_x, mark.normal_y);
 }
