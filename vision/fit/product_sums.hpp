@@ -10,7 +10,7 @@ namespace hogline::vision {
 /// Some numbers of each pixel, in columns. Nothing is allocated.
 class ProductSums {
  public:
-  static constexpr int most_columns = 13;
+  static constexpr int most_columns = 12;
   using Sums = Eigen::Matrix<double, most_columns, most_columns>;
 
   /// Precondition: at most most_pixels.

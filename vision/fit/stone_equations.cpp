@@ -12,6 +12,8 @@ namespace {
 
 constexpr float telling_light = 0.12F;  // a pixel that the stone changes by less tells nothing
 constexpr float foretold_share = 0.5F;  // of that change may be left unexplained
+constexpr int fine_blur = 7;            // numbers of the model: of brightness,
+constexpr int coarse_blur = 8;          // and of colours
 
 }  // namespace
 
@@ -20,19 +22,24 @@ struct StoneModel::Equations {
   ModelMatrix normal = ModelMatrix::Zero();
   ModelVector right = ModelVector::Zero();
 
-  void add(const ProductSums::Sums& sums, int numbers);
+  /// Of the first so many slopes; the one after the last number that all parts share is by number `blur`.
+  void add(const ProductSums::Sums& sums, int slopes, int blur);
 };
 
 // The colours of this part are eliminated at once: they are its own.
-void StoneModel::Equations::add(const ProductSums::Sums& sums, int numbers) {
-  Eigen::Matrix<double, 3, model_numbers> shared = Eigen::Matrix<double, 3, model_numbers>::Zero();
-  shared.leftCols(numbers) = sums.block(0, first_slope, 3, numbers);
-  right.head(numbers) += sums.col(residual_column).segment(first_slope, numbers);
-  normal.topLeftCorner(numbers, numbers) += sums.block(first_slope, first_slope, numbers, numbers);
+void StoneModel::Equations::add(const ProductSums::Sums& sums, int slopes, int blur) {
+  using Slopes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, model_numbers>;
+  const Slopes shared = sums.block(0, first_slope, 3, slopes);
   const Eigen::Matrix3d colours = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
   const Eigen::LDLT<Eigen::Matrix3d> solver(colours);
-  normal.triangularView<Eigen::Lower>() -= shared.transpose() * solver.solve(shared);
-  right -= shared.transpose() * solver.solve(sums.col(residual_column).head<3>());
+  const Slopes by_colours = solver.solve(shared);
+  const auto number = [blur](int slope) { return slope == fine_blur ? blur : slope; };
+  for (int i = 0; i < slopes; ++i) {
+    const auto own = sums.col(first_slope + i);
+    right[number(i)] += own[residual_column] - by_colours.col(i).dot(sums.col(residual_column).head<3>());
+    for (int j = 0; j <= i; ++j)
+      normal(number(i), number(j)) += own[first_slope + j] - shared.col(i).dot(by_colours.col(j));
+  }
 }
 
 void StoneModel::linearise(const SharedLook& look, bool with_shared) {
@@ -51,9 +58,9 @@ void StoneModel::linearise(const SharedLook& look, bool with_shared) {
   ProductSums::Sums products;
   for (int part = 0; part < 3; ++part) {
     find_slopes(part, look, with_shared);
-    const int numbers = with_shared ? model_numbers : 2;
-    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + numbers, products);
-    equations.add(products, numbers);
+    const int slopes = with_shared ? most_slopes : 2;
+    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + slopes, products);
+    equations.add(products, slopes, part == 0 ? fine_blur : coarse_blur);
   }
   normal_ = equations.normal.selfadjointView<Eigen::Lower>();
   right_ = equations.right;
@@ -78,13 +85,9 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
   const Pixels handle = (wall * colour[0] - under) * b.by_handle;
   const Pixels face = (1.0F - wall) * colour[0] * b.by_face;
   const Pixels body = (1.0F - b.handle) * (stone - behind_.col(part)) * b.by_body;
-  design_.begin(seen_.count());
-  const auto column = [this](int i) { return design_.column(i); };
+  fill_basis(part);
   const auto slope = [this](int i) { return design_.column(first_slope + i); };
-  column(0) = b.plate;
-  column(1) = b.granite;
-  column(2) = b.granite * shade_;
-  column(residual_column) = residuals_.col(part);
+  design_.column(residual_column) = residuals_.col(part);
   slope(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
   slope(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
   if (!with_shared) return;
@@ -94,8 +97,7 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
   slope(5) = handle * handle_.by_radius + face * face_.by_radius;
   slope(6) = (b.handle - b.face) * colour[0];
   const auto blur = static_cast<float>(part == 0 ? look.blur_px : look.colour_blur_px);
-  slope(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
-  slope(part == 0 ? 8 : 7).setZero();
+  slope(7) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
 }
 
 // Residuals beyond the scale of the last step count less and less.

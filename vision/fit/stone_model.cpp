@@ -123,12 +123,12 @@ void StoneModel::Blurred::mix(const DiscDistances& handle_at, const DiscDistance
   }
 }
 
-StoneModel::Basis StoneModel::Blurred::basis(const Pixels& shade) const {
-  Basis b(plate.size(), 3);
-  b.col(0) = plate;
-  b.col(1) = granite;
-  b.col(2) = granite * shade;
-  return b;
+void StoneModel::fill_basis(int part) {
+  const Blurred& b = blurred(part);
+  design_.begin(seen_.count());
+  design_.column(0) = b.plate;
+  design_.column(1) = b.granite;
+  design_.column(2) = b.granite * shade_;
 }
 
 // Once for each place and look.
@@ -158,18 +158,14 @@ void StoneModel::find_colours(const SharedLook& look) {
   draw(look);
   choose_pixels();
   const Pixels weights = weight_ * used_;
+  ProductSums::Sums sums;
   for (int part = 0; part < 3; ++part) {
     const Blurred& b = blurred(part);
-    const Basis basis = b.basis(shade_);
-    const Pixels explained = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
-    Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right;
-    for (int i = 0; i < 3; ++i) {
-      const Pixels weighed = weights * basis.col(i);
-      right[i] = static_cast<double>((weighed * explained).sum());
-      for (int j = 0; j <= i; ++j)
-        normal(i, j) = normal(j, i) = normal(i, j) + static_cast<double>((weighed * basis.col(j)).sum());
-    }
+    fill_basis(part);
+    design_.column(residual_column) = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
+    design_.sum_up(weights, first_slope, sums);
+    Eigen::Matrix3d normal = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = sums.col(residual_column).head<3>();
     normal(2, 2) += 1e-2 * normal(1, 1);
     normal(1, 1) += granite_weight_;
     right[1] += granite_weight_ * expected_granite_[part];

@@ -78,19 +78,19 @@ class StoneModel {
 
     void mix(const DiscDistances& handle_at, const DiscDistances& face_at, const BodyDistances& body_at, float blur_px,
              float wall_light);
-    Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3> basis(const Pixels& shade) const;
   };
-  using Basis = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3>;
-  /// Columns of what a pixel's light depends on: three colours, then what is left unexplained, then place and shared
-  /// numbers.
+  /// Columns of what a part of a pixel's light depends on: three colours, then what is left unexplained, then place,
+  /// shared numbers and the part's own blur, which is not the other parts'.
   static constexpr int residual_column = 3;
   static constexpr int first_slope = 4;
+  static constexpr int most_slopes = model_numbers - 1;
   struct Equations;
 
   StonePlace stands(const SharedLook& look) const;
   const Blurred& blurred(int part) const { return part == 0 ? fine_ : coarse_; }
   void draw(const SharedLook& look);
   void choose_pixels();
+  void fill_basis(int part);
   void find_residual(int part);
   void find_slopes(int part, const SharedLook& look, bool with_shared);
   void weigh(const Pixels& noise, const Pixels& sizes);
