@@ -55,15 +55,24 @@ struct Row {
   }
 };
 
-/// Binomial along the edge, differences across it.
+/// Of one channel. Differences across the edge, binomial along it: first within rows, each once, then between them.
 template <int tile_px>
-Row<tile_px> gradient(const Light<tile_px>& light, std::size_t channel, int y) {
-  const auto at = [&](int row, int x) { return Eigen::Map<const Numbers<tile_px>>(light.row(channel, row) + x); };
-  const auto a = [&](int x) { return at(y, x); };
-  const auto b = [&](int x) { return at(y + 1, x); };
-  const auto c = [&](int x) { return at(y + 2, x); };
-  return {a(2) + 2.0F * b(2) + c(2) - a(0) - 2.0F * b(0) - c(0), c(0) + 2.0F * c(1) + c(2) - a(0) - 2.0F * a(1) - a(2)};
-}
+class Gradient {
+ public:
+  Gradient(const Light<tile_px>& light, std::size_t channel) {
+    for (int y = 0; y < tile_px + 2; ++y) {
+      const auto at = [&](int x) { return Eigen::Map<const Numbers<tile_px>>(light.row(channel, y) + x); };
+      within_[static_cast<std::size_t>(y)] = {at(2) - at(0), at(0) + 2.0F * at(1) + at(2)};
+    }
+  }
+  Row<tile_px> row(int y) const {
+    const Row<tile_px>* at = &within_[static_cast<std::size_t>(y)];
+    return {at[0].x + 2.0F * at[1].x + at[2].x, at[2].y - at[0].y};
+  }
+
+ private:
+  std::array<Row<tile_px>, tile_px + 2> within_;
+};
 
 }  // namespace
 
@@ -104,10 +113,11 @@ void EdgeField::compute(int column, int row) {
   Light<tile_px> light;
   light.take(*bgr_, x0, y0, root_);
   for (std::size_t k = 0; k < 3; ++k) light.scale(k, white[k]);
+  const std::array<Gradient<tile_px>, 3> gradients{{{light, 0}, {light, 1}, {light, 2}}};
   for (int y = 0; y < tile_px; ++y) {
-    Row<tile_px> all = gradient(light, 0, y);
-    all.add_in_one_sense(gradient(light, 1, y));
-    all.add_in_one_sense(gradient(light, 2, y));
+    Row<tile_px> all = gradients[0].row(y);
+    all.add_in_one_sense(gradients[1].row(y));
+    all.add_in_one_sense(gradients[2].row(y));
     Eigen::Map<Numbers<tile_px>>(x_.ptr<float>(y0 + y) + x0) = all.x;
     Eigen::Map<Numbers<tile_px>>(y_.ptr<float>(y0 + y) + x0) = all.y;
   }
