@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/fit/stone_patch.hpp"
@@ -19,28 +20,59 @@ bool mean_light(const PatchSource& source, const Point& from, const Point& step,
   return source.mean_of_three(from.x, from.y, step.x, step.y, mean);
 }
 
-/// What is to the left and right of a stone, row by row.
+/// What is to the left and right of a stone, row by row: each row is looked at once, for all that asks for it.
 class Sides {
  public:
   Sides(const PatchSource& source, const StonePixels& pixels)
-      : source_(source), left_(pixels.x.minCoeff()), right_(pixels.x.maxCoeff()) {}
+      : source_(source),
+        left_(static_cast<int>(pixels.x.minCoeff())),
+        right_(static_cast<int>(pixels.x.maxCoeff())),
+        in_picture_(source.holds(left_ - samples + 1, 0) && source.holds(right_ + samples, 0)) {
+    for (Row& row : rows_) row.number = -1;
+  }
 
   /// Between the two sides where they agree; nothing where they do not.
-  bool at(const Point& pixel, Eigen::Array3f& light) const {
-    Eigen::Array3f left;
-    Eigen::Array3f right;
-    if (!mean_light(source_, {left_, pixel.y}, {-1.0F, 0.0F}, left)) return false;
-    if (!mean_light(source_, {right_, pixel.y}, {1.0F, 0.0F}, right)) return false;
+  bool at(const Point& pixel, Eigen::Array3f& light) {
+    if (!in_picture_ || !(pixel.y >= 0.0F) || !source_.holds(left_, static_cast<int>(pixel.y) + 1)) return false;
+    const int above = static_cast<int>(pixel.y);
+    const float v = pixel.y - static_cast<float>(above);
+    const Row& top = row(above);
+    const Row& low = row(above + 1);
+    const Eigen::Array4f left = top.left + v * (low.left - top.left);
+    const Eigen::Array4f right = top.right + v * (low.right - top.right);
     if ((left - right).matrix().norm() > 0.15F + 0.15F * (left + right).matrix().norm()) return false;
-    const float part = (pixel.x - left_) / std::max(1.0F, right_ - left_);
-    light = left + part * (right - left);
+    const float part = (pixel.x - static_cast<float>(left_)) / std::max(1.0F, static_cast<float>(right_ - left_));
+    light = (left + part * (right - left)).head<3>();
     return true;
   }
 
  private:
+  static constexpr int samples = 3;
+  static constexpr std::size_t kept_rows = 64;
+  struct Row {
+    int number;
+    Eigen::Array4f left, right;
+  };
+
+  const Row& row(int number) {
+    Row& kept = rows_[static_cast<std::size_t>(number) % kept_rows];
+    if (kept.number == number) return kept;
+    kept.number = number;
+    kept.left = kept.right = Eigen::Array4f::Zero();
+    for (int i = 0; i < samples; ++i) {
+      kept.left += source_.padded(left_ - i, number);
+      kept.right += source_.padded(right_ + i, number);
+    }
+    kept.left /= static_cast<float>(samples);
+    kept.right /= static_cast<float>(samples);
+    return kept;
+  }
+
   const PatchSource& source_;
-  float left_;
-  float right_;
+  int left_;
+  int right_;
+  bool in_picture_;
+  std::array<Row, kept_rows> rows_;
 };
 
 /// There is something of the handle's colour over the rim: its grip.
@@ -98,7 +130,7 @@ void look_behind(const PatchSource& source, const DiscDistances& handle, const B
                  StonePixels& pixels) {
   if (pixels.count() == 0) return;
   const Outline outline(handle, body, pixels);
-  const Sides sides(source, pixels);
+  Sides sides(source, pixels);
   pixels.usable.setOnes();
   pixels.behind.setZero();
   for (Eigen::Index i = 0; i < pixels.count(); ++i) {

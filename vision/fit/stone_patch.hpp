@@ -22,16 +22,19 @@ class PatchSource {
 
   /// Of a pixel of the picture.
   Eigen::Array3f at(int x, int y) const { return padded(x, y).head<3>(); }
+  /// The same and a zero.
+  Eigen::Array4f padded(int x, int y) const {
+    const std::uint8_t* p = bgr_->ptr<std::uint8_t>(y) + 3 * x;
+    return {level_[0][p[0]], level_[1][p[1]], level_[2][p[2]], 0.0F};
+  }
+  /// There is such a pixel.
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < bgr_->cols && y < bgr_->rows; }
   /// Bilinear in linear light; false outside the picture.
   bool at(float x, float y, Eigen::Array3f& light) const;
   /// The mean of three such samples, one pixel apart in the direction of (step_x, step_y).
   bool mean_of_three(float x, float y, float step_x, float step_y, Eigen::Array3f& mean) const;
 
  private:
-  Eigen::Array4f padded(int x, int y) const {
-    const std::uint8_t* p = bgr_->ptr<std::uint8_t>(y) + 3 * x;
-    return {level_[0][p[0]], level_[1][p[1]], level_[2][p[2]], 0.0F};
-  }
   bool sample(float x, float y, Eigen::Array4f& light) const {
     if (!(x >= 0.0F && y >= 0.0F && x < last_x_ && y < last_y_)) return false;
     const int column = static_cast<int>(x);
