@@ -17,22 +17,20 @@ class NormalTable {
     const Eigen::Array4f u = (z.max(-reach).min(reach) + reach) * per_unit;
     const Eigen::Array4i before = u.cast<int>();
     const Eigen::Array4f part = u - before.cast<float>();
+    Eigen::Matrix4f of_each;
     for (Eigen::Index k = 0; k < 4; ++k) {
-      const Value& v = value_[std::min<std::size_t>(static_cast<std::uint32_t>(before[k]), size - 2)];
-      integral[k] = v.integral + part[k] * v.integral_rise;
-      density[k] = v.density + part[k] * v.density_rise;
+      of_each.col(k) = value_[std::min<std::size_t>(static_cast<std::uint32_t>(before[k]), size - 2)];
     }
+    of_each.transposeInPlace();
+    integral = of_each.col(0).array() + part * of_each.col(1).array();
+    density = of_each.col(2).array() + part * of_each.col(3).array();
   }
 
  private:
   static constexpr float reach = 4.0F;
   static constexpr float per_unit = 64.0F;
   static constexpr std::size_t size = 514;
-  struct Value {
-    float integral, integral_rise;  ///< and what it grows by to the next
-    float density, density_rise;
-  };
-  std::array<Value, size> value_{};
+  std::array<Eigen::Vector4f, size> value_;  ///< integral, what it grows by to the next, density, what that grows by
 };
 
 }  // namespace hogline::vision

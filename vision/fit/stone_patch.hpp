@@ -25,7 +25,7 @@ class PatchSource {
   /// The same and a zero.
   Eigen::Array4f padded(int x, int y) const {
     const std::uint8_t* p = bgr_->ptr<std::uint8_t>(y) + 3 * x;
-    return {level_[0][p[0]], level_[1][p[1]], level_[2][p[2]], 0.0F};
+    return level_[0][p[0]] + level_[1][p[1]] + level_[2][p[2]];
   }
   /// There is such a pixel.
   bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < bgr_->cols && y < bgr_->rows; }
@@ -54,7 +54,8 @@ class PatchSource {
   float last_x_;
   float last_y_;
   const cv::Mat* bgr_;
-  std::array<std::array<float, 256>, 3> level_;
+  std::array<std::array<Eigen::Array4f, 256>, 3>
+      level_;  ///< of each channel, in its own place among zeros: to be added
 };
 
 struct StonePixels {
