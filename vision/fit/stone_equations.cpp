@@ -43,16 +43,17 @@ void StoneModel::Equations::add(const ProductSums::Sums& sums, int slopes, int b
 }
 
 void StoneModel::linearise(const SharedLook& look, bool with_shared) {
+  find_scale();
   find_colours(look);
   residuals_.resize(seen_.count(), 3);
   for (int part = 0; part < 3; ++part) find_residual(part);
 
   // Shot noise grows with the light; what is behind was measured with noise, too.
-  const Pixels noise = 0.02F + 0.5F * (light_.col(0) + behind_.col(0)).max(0.0F);
-  const Pixels sizes =
-      ((residuals_.col(0).square() + colour_weight * (residuals_.col(1).square() + residuals_.col(2).square())) / noise)
-          .sqrt();
-  weigh(noise, sizes);
+  noise_ = 0.02F + 0.5F * (light_.col(0) + behind_.col(0)).max(0.0F);
+  sizes_ = ((residuals_.col(0).square() + colour_weight * (residuals_.col(1).square() + residuals_.col(2).square())) /
+            noise_)
+               .sqrt();
+  weigh();
 
   Equations equations;
   ProductSums::Sums products;
@@ -64,8 +65,8 @@ void StoneModel::linearise(const SharedLook& look, bool with_shared) {
   }
   normal_ = equations.normal.selfadjointView<Eigen::Lower>();
   right_ = equations.right;
-  summarise(sizes, noise);
-  find_scale(sizes);
+  left_ = static_cast<double>((weight_ * sizes_.square() * noise_).sum());
+  variance_ = left_ / (2.0 * std::max(1.0, static_cast<double>(used_.sum())));
 }
 
 void StoneModel::find_residual(int part) {
@@ -101,20 +102,21 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
 }
 
 // Residuals beyond the scale of the last step count less and less.
-void StoneModel::weigh(const Pixels& noise, const Pixels& sizes) {
+void StoneModel::weigh() {
   if (scale_ > 0.0) {
     const auto scale = static_cast<float>(scale_);
-    weight_ = used_ / (noise * (1.0F + (sizes / scale).square()));
+    weight_ = used_ / (noise_ * (1.0F + (sizes_ / scale).square()));
   } else {
-    weight_ = used_ / noise;
+    weight_ = used_ / noise_;
   }
 }
 
-void StoneModel::find_scale(const Pixels& sizes) {
+// Of the last step's residuals; before the first one there are none.
+void StoneModel::find_scale() {
   std::array<float, most_pixels> used;
   std::size_t count = 0;
-  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-    if (used_[i] > 0.0F) used[count++] = sizes[i];
+  for (Eigen::Index i = 0; i < sizes_.size(); ++i) {
+    if (used_[i] > 0.0F) used[count++] = sizes_[i];
   }
   if (count == 0) return;
   const auto middle = used.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -122,17 +124,14 @@ void StoneModel::find_scale(const Pixels& sizes) {
   scale_ = std::max(0.02, 2.0 * static_cast<double>(*middle));
 }
 
-void StoneModel::summarise(const Pixels& sizes, const Pixels& noise) {
-  const auto left = static_cast<double>((weight_ * sizes.square() * noise).sum());
+void StoneModel::conclude() {
   const auto plain_left = static_cast<double>((weight_ * residuals_.col(0).square()).sum());
   const PixelColours change = light_ - behind_;
   const auto difference = static_cast<double>(
       (weight_ * (change.col(0).square() + colour_weight * (change.col(1).square() + change.col(2).square()))).sum());
   const auto weights = static_cast<double>(weight_.sum());
-  const double count = std::max(1.0, static_cast<double>(used_.sum()));
-  variance_ = left / (2.0 * count);
   residual_ = weights > 0.0 ? std::sqrt(plain_left / weights) : 0.0;
-  explained_ = difference > 0.0 ? 1.0 - left / difference : 0.0;
+  explained_ = difference > 0.0 ? 1.0 - left_ / difference : 0.0;
   count_told(change);
 }
 

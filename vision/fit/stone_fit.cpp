@@ -107,7 +107,10 @@ const StoneFitResult& StoneFitter::run() {
     for (StoneModel& s : stones_) s.linearise(look_, with_shared);
     step(with_shared);
   }
-  for (StoneModel& s : stones_) s.linearise(look_, options_.covariance);
+  for (StoneModel& s : stones_) {
+    s.linearise(look_, options_.covariance);
+    s.conclude();
+  }
   result_.look = look_;
   result_.stones.clear();
   const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();

@@ -47,6 +47,8 @@ class StoneModel {
   /// Normal equations of place and shared numbers, or of the place alone (the others' are zero), with the colours
   /// eliminated; weighs the pixels by their residuals.
   void linearise(const SharedLook& look, bool with_shared);
+  /// How well it is explained where it was linearised last.
+  void conclude();
 
   bool enough() const;                           ///< enough of it is seen to place it
   double visible() const;                        ///< share of its outline's pixels in use
@@ -93,9 +95,8 @@ class StoneModel {
   void fill_basis(int part);
   void find_residual(int part);
   void find_slopes(int part, const SharedLook& look, bool with_shared);
-  void weigh(const Pixels& noise, const Pixels& sizes);
-  void find_scale(const Pixels& sizes);
-  void summarise(const Pixels& sizes, const Pixels& noise);
+  void weigh();
+  void find_scale();
   void count_told(const PixelColours& change);
 
   PatchSource source_;
@@ -108,6 +109,8 @@ class StoneModel {
   Pixels grip_;          ///< 1: a nearer stone's grip may cover it; else 0
   Pixels used_;          ///< 1 or 0
   Pixels weight_;
+  Pixels noise_;  ///< variance that each pixel's light should have
+  Pixels sizes_;  ///< of the residuals, in its deviations
   DiscDistances handle_, face_;
   BodyDistances body_;
   Blurred fine_, coarse_;  ///< for brightness, for colours
@@ -124,6 +127,7 @@ class StoneModel {
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;
+  double left_ = 0.0;  ///< unexplained, weighed
   double variance_ = 0.0;
   double residual_ = 0.0;
   double explained_ = 0.0;
