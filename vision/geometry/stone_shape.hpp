@@ -35,10 +35,10 @@ struct Bearing {
 
 Bearing bearing_of(const Eigen::Vector2d& place, const Eigen::Vector3d& camera);
 
-/// An angle, for whoever needs it again and again.
+/// An angle, for whoever needs it again and again. Wherever one is asked for, the plain angle will do.
 struct Turn {
   double cosine, sine;
-  Turn(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}  // NOLINT: an angle is a turn
+  Turn(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
 };
 
 /// A point of a level circle about a stone's axis, `turn` from the right, counter-clockwise: pi/2 is the far side.
