@@ -16,6 +16,7 @@
 #include "vision/low_percept.hpp"
 #include "vision/low_view_sketch.hpp"
 #include "vision/near_view_sketch.hpp"
+#include "vision/picture/picture_shape.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -59,7 +60,6 @@ struct LowView::Impl {
         response(camera_setup.gamma),
         fit(camera_setup) {}
 
-  std::string unusable(const cv::Mat& image) const;
   Start levelled(const HShape& h, const std::vector<EdgePoint>& points, std::optional<double> known_width_m) const;
   CrossRange hog_range(const LowViewPrediction& prediction) const;
   HKnowledge knowledge(const LowViewPrediction& prediction) const;
@@ -86,7 +86,7 @@ SheetPosePercept LowView::acquire(const cv::Mat& image, Stamp stamp, const LowVi
                                   LowViewSketch* sketch) {
   SheetPosePercept nothing;
   nothing.stamp = stamp;
-  nothing.reason = impl_->unusable(image);
+  nothing.reason = shape_fault(image, impl_->setup.intrinsics);
   if (!nothing.reason.empty()) return nothing;
 
   impl_->light.read(image);
@@ -129,16 +129,6 @@ Start LowView::Impl::levelled(const HShape& h, const std::vector<EdgePoint>& poi
   start.body.y_m += vote->ring_shift_m;
   if (!known_width_m && vote->sideline_points >= fewest_sideline_points) start.width_m = vote->width_m;
   return start;
-}
-
-std::string LowView::Impl::unusable(const cv::Mat& image) const {
-  if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
-  if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
-    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
-           std::to_string(setup.intrinsics.width_px) + "x" + std::to_string(setup.intrinsics.height_px);
-  }
-  return {};
 }
 
 CrossRange LowView::Impl::hog_range(const LowViewPrediction& prediction) const {

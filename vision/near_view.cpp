@@ -15,6 +15,7 @@
 #include "vision/fit/sheet_fit.hpp"
 #include "vision/fit_percept.hpp"
 #include "vision/near_view_sketch.hpp"
+#include "vision/picture/picture_shape.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -57,7 +58,6 @@ struct NearView::Impl {
   explicit Impl(const CameraSetup& camera_setup)
       : setup(camera_setup), view(camera_setup), response(camera_setup.gamma), fit(camera_setup) {}
 
-  std::string unusable(const cv::Mat& image) const;
   std::optional<Hypothesis> by_four_points(const cv::Mat& image, const std::vector<EdgePoint>& points,
                                            const LineClasses& classes, NearViewSketch* sketch) const;
   std::optional<Hypothesis> by_ring_vote(const std::vector<EdgePoint>& points, const LineClasses& classes) const;
@@ -80,7 +80,7 @@ NearView& NearView::operator=(NearView&&) noexcept = default;
 SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSketch* sketch) {
   SheetPosePercept nothing;
   nothing.stamp = stamp;
-  nothing.reason = impl_->unusable(image);
+  nothing.reason = shape_fault(image, impl_->setup.intrinsics);
   if (!nothing.reason.empty()) return nothing;
 
   const auto points = find_edge_points(image, impl_->view, {});
@@ -105,16 +105,6 @@ SheetPosePercept NearView::acquire(const cv::Mat& image, Stamp stamp, NearViewSk
     return impl_->percept(result, hypothesis->origin, stamp);
   }
   return nothing;
-}
-
-std::string NearView::Impl::unusable(const cv::Mat& image) const {
-  if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
-  if (image.cols != setup.intrinsics.width_px || image.rows != setup.intrinsics.height_px) {
-    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
-           std::to_string(setup.intrinsics.width_px) + "x" + std::to_string(setup.intrinsics.height_px);
-  }
-  return {};
 }
 
 // The paper's chain: the (h, l, r) whose four points agree best with a pose.

@@ -9,6 +9,7 @@
 #include "vision/detect/white_light.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
+#include "vision/picture/picture_shape.hpp"
 #include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
 
@@ -85,7 +86,6 @@ struct StoneFinder::Impl {
         groups(stones_setup.camera, stones_setup.shape),
         screening(stones_setup.teams) {}
 
-  std::string unusable(const cv::Mat& image) const;
   Settling settle(const StonePicture& picture, const StoneArea& area, std::vector<JudgedStone>& stones);
   void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
@@ -107,7 +107,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
                                 StonesSketch* sketch) {
   StonesPercept seen;
   seen.stamp = stamp;
-  seen.reason = impl_->unusable(image);
+  seen.reason = shape_fault(image, impl_->lens.intrinsics());
   if (!seen.reason.empty()) return seen;
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
   const StoneArea area = stone_area(sheet_width_m);
@@ -143,17 +143,6 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   seen.candidates = static_cast<int>(stones.size());
   seen.refused = seen.candidates - static_cast<int>(seen.stones.size());
   return seen;
-}
-
-std::string StoneFinder::Impl::unusable(const cv::Mat& image) const {
-  if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
-  const Intrinsics& k = lens.intrinsics();
-  if (image.cols != k.width_px || image.rows != k.height_px) {
-    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
-           std::to_string(k.width_px) + "x" + std::to_string(k.height_px);
-  }
-  return {};
 }
 
 StoneGroupFinder& StoneFinder::groups() { return impl_->groups; }

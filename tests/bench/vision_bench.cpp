@@ -12,10 +12,12 @@
 #include "tests/support/random_far_scene.hpp"
 #include "tests/support/turning_sequence.hpp"
 #include "tests/vision/scene.hpp"
+#include "tests/vision/stones/moving_board.hpp"
 #include "vision/far_view/far_view.hpp"
 #include "vision/fit/sheet_fit.hpp"
 #include "vision/near_sequence.hpp"
 #include "vision/near_view.hpp"
+#include "vision/planned_sheet.hpp"
 #include "vision/stone_sequence.hpp"
 
 namespace hogline::vision {
@@ -143,6 +145,94 @@ void near_stones_track(benchmark::State& state) {
   state.counters["stones"] = stones;
 }
 
+/// A board with eight stones in sight at 60 pictures a second, of which one is struck and runs, its handle in sight;
+/// the head is thought to point a tenth of a degree off where it does.
+class RunningStone {
+ public:
+  RunningStone() {
+    for (int k = 0; k < count; ++k) pictures_.push_back(board_.picture(k));
+    planned_ = scene().eMc * Eigen::AngleAxisd(0.1 * degree, Eigen::Vector3d::UnitY());
+  }
+  const hogline::testing::RandomScene& scene() const { return board_.board().scene; }
+  StonesSetup setup() const { return board_.setup(); }
+  const Pose& planned() const { return planned_; }
+
+  /// The next picture, and when it was taken. After the last one `work` begins anew, by itself, with the first ones.
+  template <typename Work>
+  void step(benchmark::State* state, const Work& work) {
+    const bool again = at_ == count;
+    if (again && state != nullptr) state->PauseTiming();
+    if (again) {
+      at_ = 0;
+      begin_ += from_seconds(10.0);
+    }
+    while (at_ < first) show(work);
+    if (again && state != nullptr) state->ResumeTiming();
+    show(work);
+  }
+
+ private:
+  static constexpr int first = 12;  ///< of those that are measured: by then the stone is known to run
+  static constexpr int count = 36;
+
+  template <typename Work>
+  void show(const Work& work) {
+    const int k = at_++;
+    work(pictures_[static_cast<std::size_t>(k)], begin_ + (board_.stamp(k) - Stamp{}));
+  }
+
+  testing::MovingBoard board_{26, {.rate_hz = 60.0, .struck_at = 2, .speed_mps = 1.5, .walker = false}};
+  std::vector<cv::Mat> pictures_;
+  Pose planned_;
+  Stamp begin_{};
+  int at_ = 0;
+};
+
+// The sheet by a head's joints, as the skip sees it from picture to picture.
+void near_planned_sheet(benchmark::State& state) {
+  RunningStone board;
+  PlannedSheet sheet(board.setup().camera);
+  double tracked = 0.0;
+  double frames = 0.0;
+  const auto look = [&](const cv::Mat& picture, Stamp stamp) {
+    const SheetFitResult& result = sheet.look(picture, stamp, board.planned(), board.scene().sheet_width_m);
+    if (!result.ok) state.SkipWithError(result.reason.c_str());
+    ++frames;
+    tracked += sheet.tracked() ? 1.0 : 0.0;
+  };
+  board.step(nullptr, look);
+  tracked = frames = 0.0;
+  for (auto _ : state) board.step(&state, look);
+  state.counters["tracked"] = tracked / frames;
+}
+
+// All that the skip does with a near picture while a throw is followed: the sheet, all stones, the running one's
+// handle.
+void near_frame(benchmark::State& state) {
+  RunningStone board;
+  PlannedSheet sheet(board.setup().camera);
+  StoneSequence sequence(board.setup());
+  double tracked = 0.0;
+  double stones = 0.0;
+  double handles = 0.0;
+  double frames = 0.0;
+  const auto look = [&](const cv::Mat& picture, Stamp stamp) {
+    const SheetFitResult& result = sheet.look(picture, stamp, board.planned(), board.scene().sheet_width_m);
+    if (!result.ok) state.SkipWithError(result.reason.c_str());
+    const StonesPercept seen = sequence.look(picture, stamp, result.eMc, board.scene().sheet_width_m, {});
+    ++frames;
+    tracked += sheet.tracked() ? 1.0 : 0.0;
+    stones += static_cast<double>(seen.stones.size());
+    for (const StoneSighting& s : seen.stones) handles += s.handle_rad ? 1.0 : 0.0;
+  };
+  board.step(nullptr, look);
+  stones = handles = tracked = frames = 0.0;
+  for (auto _ : state) board.step(&state, look);
+  state.counters["tracked"] = tracked / frames;
+  state.counters["stones"] = stones / frames;
+  state.counters["handles"] = handles / frames;
+}
+
 // A frame of a robot that turns at 20 deg/s, to and fro: eight frames are drawn, so that each comes from memory anew.
 void near_track(benchmark::State& state) {
   const hogline::testing::TurningSequence sequence(hogline::testing::turning_move());
@@ -175,6 +265,8 @@ BENCHMARK_CAPTURE(near_fit, plain, "near/near-11-000")->Unit(benchmark::kMillise
 BENCHMARK(near_track)->Unit(benchmark::kMillisecond);
 BENCHMARK(near_stones_find)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK(near_stones_track)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(near_planned_sheet)->Unit(benchmark::kMillisecond);
+BENCHMARK(near_frame)->Unit(benchmark::kMillisecond);
 BENCHMARK(far_look)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK(far_track)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 

@@ -8,10 +8,12 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "tests/support/random_board.hpp"
 #include "tests/support/run_sequence.hpp"
 #include "tests/support/turning_sequence.hpp"
 #include "vision/low_sequence.hpp"
 #include "vision/near_sequence.hpp"
+#include "vision/stones.hpp"
 
 namespace {
 
@@ -111,6 +113,32 @@ TEST(Allocation, DoesNotHappenInTheTrackedFramesOfARun) {
     if (k >= warm_up) {
       EXPECT_EQ(during, 0) << "frame " << k << (low.diagnosis().blind ? ", without the hog line" : "");
     }
+  }
+}
+
+// Found from nothing, stones take some: short lists and reasons of candidates. None for each pixel or place, and no
+// more from picture to picture.
+TEST(Allocation, IsRareWhereStonesAreFound) {
+  hogline::testing::RandomBoard board;
+  for (std::uint64_t seed = 1; board.stones.size() != 8; ++seed) board = hogline::testing::random_board(seed);
+  const cv::Mat picture = hogline::testing::render(board.scene);
+  StonesSetup setup;
+  setup.camera = board.scene.setup;
+  StoneFinder finder(setup);
+  long last = 0;
+  for (int k = 0; k < 4; ++k) {
+    const long before = asked_for;
+    const StonesPercept percept = finder.find(picture, Stamp{}, board.scene.eMc, board.scene.sheet_width_m);
+    const long during = asked_for - before;
+    ASSERT_TRUE(percept.ok) << percept.reason;
+    ASSERT_GE(percept.stones.size(), 6U);
+    if (k > 0) {
+      EXPECT_LE(during, 100 + 20L * percept.candidates) << "picture " << k;
+    }
+    if (k > 1) {
+      EXPECT_LE(during, last) << "picture " << k;
+    }
+    last = during;
   }
 }
 

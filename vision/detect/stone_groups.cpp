@@ -171,11 +171,18 @@ int StoneGroupFinder::part_begins(int number, int count) const {
   return bands_[1].bottom;
 }
 
-void StoneGroupFinder::find_whites(const WhiteLight& ice, int columns, int y) {
-  per_white_.clear();
+void StoneGroupFinder::find_whites(const WhiteLight& ice, const ResponseCurve& response, int columns, int y) {
+  whites_.clear();
   for (int x = 0; x < columns; x += white_px) {
     const auto white = ice.at(x + white_px / 2, y + white_px / 2);
-    per_white_.push_back({1.0F / white[0], 1.0F / white[1], 1.0F / white[2]});
+    White w{{1.0F / white[0], 1.0F / white[1], 1.0F / white[2]}};
+    int high = 256;
+    while (w.light_level < high) {
+      const int middle = (w.light_level + high) / 2;
+      const bool dark = response.linear(static_cast<std::uint8_t>(middle)) * w.scale[1] < lightest_granite;
+      (dark ? w.light_level : high) = dark ? middle + 1 : middle;
+    }
+    whites_.push_back(w);
   }
 }
 
@@ -189,22 +196,22 @@ void StoneGroupFinder::find_granite(const Band& band, const cv::Mat& bgr, const 
   const int run = white_px / band.step;  // columns that share their white, and so many rows
   for (int r = 0; r < rows; ++r) {
     const int y = band.top + band.step * r;
-    if (band.step * r % white_px == 0) find_whites(ice, bgr.cols, y);
+    if (band.step * r % white_px == 0) find_whites(ice, response, bgr.cols, y);
     std::uint8_t* out = granite_.ptr<std::uint8_t>(r + margin) + margin;
     for (int begin = 0; begin < columns; begin += run) {
       const int end = std::min(begin + run, columns);
       if (!extent(band.step * begin, y).seen && !extent(band.step * end - 1, y).seen) continue;
-      const std::array<float, 3>& scale = per_white_[static_cast<std::size_t>(begin / run)];
+      const White white = whites_[static_cast<std::size_t>(begin / run)];
       const std::uint8_t* upper = bgr.ptr<std::uint8_t>(y) + 3 * band.step * begin;
       const std::uint8_t* lower = bgr.ptr<std::uint8_t>(y + 1) + 3 * band.step * begin;
       for (int c = begin; c < end; ++c, upper += 3 * band.step, lower += 3 * band.step) {
-        const auto light = [&](int k) {
-          const int sum = upper[k] + upper[k + 3] + lower[k] + lower[k + 3] + 2;
-          return response.linear(static_cast<std::uint8_t>(sum / 4)) * scale[static_cast<std::size_t>(k)];
-        };
+        const auto level = [&](int k) { return (upper[k] + upper[k + 3] + lower[k] + lower[k + 3] + 2) / 4; };
         // Most of it is ice: its green alone says so.
-        const float green = light(1);
-        out[c] = green < lightest_granite && may_be_granite(light(0), green, light(2)) ? 1 : 0;
+        if (level(1) >= white.light_level) continue;
+        const auto light = [&](int k) {
+          return response.linear(static_cast<std::uint8_t>(level(k))) * white.scale[static_cast<std::size_t>(k)];
+        };
+        out[c] = may_be_granite(light(0), light(1), light(2)) ? 1 : 0;
       }
     }
   }
@@ -223,11 +230,15 @@ void StoneGroupFinder::mark_centres(const Band& band, int columns, cv::Mat& cent
       Rectangle of_all = e.body;
       of_all.right += end - begin - 1;
       if (!e.seen || of_all.count(sums + begin, row_length) < e.least_body) continue;
+      std::array<int, block_px> in_body;
+      std::array<int, block_px> in_handle;
+      e.body.count(sums + begin, row_length, end - begin, in_body.data());
+      e.handle.count(sums + begin, row_length, end - begin, in_handle.data());
       for (int c = begin; c < end; ++c) {
-        if (e.body.count(sums + c, row_length) < e.least_body) continue;
-        if (e.handle.count(sums + c, row_length) > e.most_handle) continue;
-        for (int i = 0; i < size; ++i) {
-          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + i) + size * c;
+        const auto i = static_cast<std::size_t>(c - begin);
+        if (in_body[i] < e.least_body || in_handle[i] > e.most_handle) continue;
+        for (int row = 0; row < size; ++row) {
+          std::uint8_t* out = centres.ptr<std::uint8_t>((y - top_) / 2 + row) + size * c;
           std::fill(out, out + size, std::uint8_t{255});
         }
         cells_.at<std::uint8_t>((y - top_) / cell_px, band.step * c / cell_px) = 255;

@@ -59,6 +59,14 @@ class StoneGroupFinder {
     int count(const int* sums, int row) const {
       return sums[bottom * row + right] - sums[bottom * row + left] - sums[top * row + right] + sums[top * row + left];
     }
+    /// Of places beside each other.
+    void count(const int* sums, int row, int places, int* counts) const {
+      const int* low_right = sums + bottom * row + right;
+      const int* low_left = sums + bottom * row + left;
+      const int* high_right = sums + top * row + right;
+      const int* high_left = sums + top * row + left;
+      for (int i = 0; i < places; ++i) counts[i] = low_right[i] - low_left[i] - high_right[i] + high_left[i];
+    }
   };
 
   /// What a stone covers whose handle's centre is in the middle of a block, relative to it, in pixels.
@@ -75,6 +83,12 @@ class StoneGroupFinder {
     void choose_rectangles(float step);
   };
 
+  /// White ice in a square of white_px.
+  struct White {
+    std::array<float, 3> scale;  ///< from linear light
+    int light_level = 0;         ///< green from here on is too light for granite
+  };
+
   /// Rows of the picture that are looked at in steps of so many pixels.
   struct Band {
     int top, bottom, step;
@@ -89,7 +103,7 @@ class StoneGroupFinder {
   int first_big_row() const;
   void begin(const cv::Mat& bgr, StoneGroups& groups);
   void leave_out(const Band& band, const std::vector<cv::Point>& outline);
-  void find_whites(const WhiteLight& ice, int columns, int y);
+  void find_whites(const WhiteLight& ice, const ResponseCurve& response, int columns, int y);
   void find_granite(const Band& band, const cv::Mat& bgr, const WhiteLight& ice, const ResponseCurve& response);
   void mark_centres(const Band& band, int columns, cv::Mat& centres);
   std::vector<cv::Rect> boxes_of(cv::Size picture) const;
@@ -98,7 +112,7 @@ class StoneGroupFinder {
   int top_;
   std::vector<Extent> extents_;
   std::array<Band, 2> bands_;
-  std::vector<std::array<float, 3>> per_white_;  ///< of a row of squares of white_px
+  std::vector<White> whites_;  ///< of a row of squares
   cv::Mat granite_;
   cv::Mat sums_;
   cv::Mat cells_;  ///< 255 where a centre may be

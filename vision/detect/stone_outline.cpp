@@ -11,6 +11,33 @@ constexpr double pi = std::numbers::pi;
 constexpr double removal_m = 0.14;
 constexpr std::array<double, 3> thicknesses{0.5, 1.0, 1.6};  // of the handle, in those of the shape
 
+/// A place of an outline, and the next one that shows its direction.
+struct Step {
+  Turn at, next;
+  explicit Step(double a) : at(a), next(a + 0.02) {}
+};
+
+/// Where the marks are on their curves: the same in each outline.
+struct Steps {
+  std::vector<Step> far_rim, near_edge;
+  std::vector<Step> body;  ///< both sides from below the waist to the shoulder, and the foot
+  Steps() {
+    for (std::size_t i = 0; i < StoneOutline::handle_marks; ++i) {
+      const double a = pi * (0.08 + 0.12 * static_cast<double>(i));
+      far_rim.emplace_back(a);
+      near_edge.emplace_back(-a);
+    }
+    for (int i = 0; i < 5; ++i) {
+      const double a = -0.9 + 0.35 * i;
+      body.emplace_back(a);
+      body.emplace_back(pi - a);
+    }
+    for (int i = -1; i <= 1; ++i) body.emplace_back(-0.5 * pi + 0.4 * i);
+  }
+};
+
+const Steps steps;
+
 /// A stone at one place, as the camera sees it.
 class Drawing {
  public:
@@ -20,15 +47,16 @@ class Drawing {
         shape_(shape),
         place_(place),
         centre_(centre),
-        eye_(camera.eMc().translation()),
-        bearing_(bearing_of(place, eye_)) {}
+        bearing_(bearing_of(place, camera.eMc().translation())) {}
 
-  bool circle(double height_m, double a, OutlineMark& mark) const {
-    return add([&](double b) { return circle_point(place_, bearing_, shape_.handle_radius_m, height_m, b); }, a, mark);
+  bool circle(double height_m, const Step& step, OutlineMark& mark) const {
+    return add([&](const Turn& t) { return circle_point(place_, bearing_, shape_.handle_radius_m, height_m, t); }, step,
+               mark);
   }
-  bool body(double a, OutlineMark& mark) const {
-    return add([&](double b) { return body_outline_point(place_, shape_, eye_, b); }, a, mark);
+  bool body(const BodyOutline& outline, const Step& step, OutlineMark& mark) const {
+    return add([&](const Turn& t) { return outline.at(t); }, step, mark);
   }
+  BodyOutline body_outline() const { return {place_, shape_, camera_.eMc().translation()}; }
   /// How far it is in the picture to a point of the handle's plane; 0 where that can not be seen.
   float reach(double radius_m, double a) const {
     const auto pixel = camera_.project(circle_point(place_, bearing_, radius_m, shape_.handle_height_m, a));
@@ -38,9 +66,9 @@ class Drawing {
 
  private:
   template <typename Curve>
-  bool add(const Curve& curve, double a, OutlineMark& mark) const {
-    const auto p = camera_.project(curve(a));
-    const auto next = camera_.project(curve(a + 0.02));
+  bool add(const Curve& curve, const Step& step, OutlineMark& mark) const {
+    const auto p = camera_.project(curve(step.at));
+    const auto next = camera_.project(curve(step.next));
     if (!p || !next) return false;
     const Eigen::Vector2d along = (*next - *p).normalized();
     mark = {static_cast<float>(p->x() - centre_.x()), static_cast<float>(p->y() - centre_.y()),
@@ -52,32 +80,26 @@ class Drawing {
   const StoneShape& shape_;
   Eigen::Vector2d place_;
   Eigen::Vector2d centre_;
-  Eigen::Vector3d eye_;
   Bearing bearing_;
 };
 
 bool draw_handle(const Drawing& drawing, const StoneShape& shape, StoneOutline& outline) {
   bool ok = true;
   for (std::size_t i = 0; i < StoneOutline::handle_marks; ++i) {
-    const double a = pi * (0.08 + 0.12 * static_cast<double>(i));
-    ok = ok && drawing.circle(shape.handle_height_m, a, outline.far_rim[i]);
+    ok = ok && drawing.circle(shape.handle_height_m, steps.far_rim[i], outline.far_rim[i]);
     for (std::size_t k = 0; k < thicknesses.size(); ++k) {
       const double height_m = shape.handle_height_m - thicknesses[k] * shape.handle_thickness_m;
-      ok = ok && drawing.circle(height_m, -a, outline.near_edge[i][k]);
+      ok = ok && drawing.circle(height_m, steps.near_edge[i], outline.near_edge[i][k]);
     }
   }
   return ok;
 }
 
-// Both sides from below the waist to the shoulder, and the foot.
 bool draw_body(const Drawing& drawing, StoneOutline& outline) {
+  const BodyOutline body = drawing.body_outline();
   bool ok = true;
-  for (std::size_t i = 0; i < 5; ++i) {
-    const double a = -0.9 + 0.35 * static_cast<double>(i);
-    ok = ok && drawing.body(a, outline.body[2 * i]) && drawing.body(pi - a, outline.body[2 * i + 1]);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    ok = ok && drawing.body(-0.5 * pi + 0.4 * (static_cast<double>(i) - 1.0), outline.body[10 + i]);
+  for (std::size_t i = 0; i < StoneOutline::body_marks; ++i) {
+    ok = ok && drawing.body(body, steps.body[i], outline.body[i]);
   }
   return ok;
 }

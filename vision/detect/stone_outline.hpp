@@ -61,6 +61,9 @@ class OutlineTable {
     return *outlines_[i];
   }
 
+  /// Where the next outline begins, to the right; a multiple of two.
+  static int next_column(int x) { return (x / block_px + 1) * block_px; }
+
  private:
   static constexpr int block_px = 24;
 

@@ -23,6 +23,13 @@ int empty_run(const std::uint8_t* from, int count) {
   return run;
 }
 
+/// How many that are not zero. Precondition: the first is not.
+int full_run(const std::uint8_t* from, int count) {
+  int run = 1;
+  while (run < count && from[run] != 0) ++run;
+  return run;
+}
+
 }  // namespace
 
 // Of a stone behind others only the handle may be seen.
@@ -81,49 +88,63 @@ void StoneVoter::collect(const StoneGroups& groups, float least) {
       }
       const int x = 2 * c;
       const int y = groups.top + 2 * r;
+      const int run = full_run(possible + c, std::min(groups.centres.cols, outlines_.next_column(x) / 2) - c);
+      c += run - 1;
       const StoneOutline& outline = outlines_.at(x, y);
       if (!outline.seen) continue;
-      const int columns = outline.half_width_px > big_x_px ? 1 : 2;
+      const int step = outline.half_width_px > big_x_px ? 2 : 1;
       const int rows = outline.half_depth_px > big_y_px ? 1 : 2;
-      for (int i = 0; i < columns * rows; ++i) vote(x + i % columns, y + i / columns, least, outline);
+      const int end = x + 2 * run;
+      for (int row = y; row < y + rows; ++row) {
+        for (int i = x; i < end; i += 4 * step) vote({i, row, step, (end - i + step - 1) / step}, least, outline);
+      }
     }
   }
 }
 
-void StoneVoter::vote(int x, int y, float least, const StoneOutline& outline) {
-  const auto u = static_cast<float>(x);
-  const auto v = static_cast<float>(y);
-  if (!worth_asking(outline, u, v)) return;
-  const Votes votes = votes_for(outline, u, v);
-  const float sum = votes.all();
-  if (sum > least) ballots_.push_back({x, y, votes, sum, &outline});
+void StoneVoter::vote(const Places& places, float least, const StoneOutline& outline) {
+  const Asked asked = worth_asking(outline, places);
+  if (!asked.any()) return;
+  const VotesOfFour all = votes_for(outline, places);
+  for (int i = 0; i < std::min(4, places.count); ++i) {
+    if (!asked[i]) continue;
+    const Votes votes = all.of(i);
+    const float sum = votes.all();
+    if (sum > least) ballots_.push_back({places.x + i * places.step, places.y, votes, sum, &outline});
+  }
+}
+
+[[gnu::always_inline]] inline FourPlaces StoneVoter::edges(const Places& places, const OutlineMark& mark) {
+  return field_.edges(static_cast<float>(places.x) + mark.x, static_cast<float>(places.y) + mark.y, places.step,
+                      mark.normal_x, mark.normal_y);
 }
 
 // A few marks on both sides of the body and along the handle's near edge: where hardly any of them stands on an edge
 // the rest are not worth asking.
-bool StoneVoter::worth_asking(const StoneOutline& outline, float x, float y) {
+StoneVoter::Asked StoneVoter::worth_asking(const StoneOutline& outline, const Places& places) {
   constexpr auto marks = static_cast<float>(StoneOutline::first_body_marks + StoneOutline::first_handle_marks);
-  float found = 0.0F;
-  for (const OutlineMark& m : outline.first_handle) found += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
-  if (found >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks)) return true;
+  FourPlaces found = FourPlaces::Zero();
+  for (const OutlineMark& m : outline.first_handle) found += edges(places, m);
+  const Asked by_handle = found >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks);
+  if (by_handle.all()) return by_handle;
   auto left = static_cast<float>(StoneOutline::first_body_marks);
   for (const OutlineMark& m : outline.first_body) {
-    if (found + left < first_share * marks) return false;
-    found += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+    if ((found + left < first_share * marks).all()) return by_handle;
+    found += edges(places, m);
     left -= 1.0F;
   }
-  return found >= first_share * marks;
+  return by_handle || found >= first_share * marks;
 }
 
-StoneVoter::Votes StoneVoter::votes_for(const StoneOutline& outline, float x, float y) {
-  Votes votes;
-  for (const OutlineMark& m : outline.far_rim) votes.handle += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+StoneVoter::VotesOfFour StoneVoter::votes_for(const StoneOutline& outline, const Places& places) {
+  VotesOfFour votes;
+  for (const OutlineMark& m : outline.far_rim) votes.handle += edges(places, m);
   for (const auto& marks : outline.near_edge) {
-    float best = 0.0F;
-    for (const OutlineMark& m : marks) best = std::max(best, field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y));
+    FourPlaces best = FourPlaces::Zero();
+    for (const OutlineMark& m : marks) best = best.max(edges(places, m));
     votes.handle += best;
   }
-  for (const OutlineMark& m : outline.body) votes.body += field_.edge(x + m.x, y + m.y, m.normal_x, m.normal_y);
+  for (const OutlineMark& m : outline.body) votes.body += edges(places, m);
   votes.handle /= static_cast<float>(2 * StoneOutline::handle_marks);
   votes.body /= static_cast<float>(StoneOutline::body_marks);
   return votes;
@@ -132,10 +153,11 @@ StoneVoter::Votes StoneVoter::votes_for(const StoneOutline& outline, float x, fl
 StoneVoter::Ballot StoneVoter::best_near(const Ballot& peak) {
   Ballot best = peak;
   for (int y = peak.y - 1; y <= peak.y + 1; ++y) {
-    for (int x = peak.x - 1; x <= peak.x + 1; ++x) {
-      const Votes votes = votes_for(*peak.outline, static_cast<float>(x), static_cast<float>(y));
+    const VotesOfFour row = votes_for(*peak.outline, {peak.x - 1, y, 1, 3});
+    for (int i = 0; i < 3; ++i) {
+      const Votes votes = row.of(i);
       const float sum = votes.all();
-      if (sum > best.sum) best = {x, y, votes, sum, peak.outline};
+      if (sum > best.sum) best = {peak.x - 1 + i, y, votes, sum, peak.outline};
     }
   }
   return best;

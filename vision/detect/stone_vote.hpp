@@ -49,10 +49,23 @@ class StoneVoter {
     const StoneOutline* outline;
     bool removed_by(const Ballot& peak) const;
   };
+  /// Four places of a row, so many pixels apart, of which the first `count` are asked.
+  struct Places {
+    int x, y;
+    int step;
+    int count;
+  };
+  struct VotesOfFour {
+    FourPlaces handle = FourPlaces::Zero();
+    FourPlaces body = FourPlaces::Zero();
+    Votes of(int i) const { return {handle[i], body[i]}; }
+  };
+  using Asked = Eigen::Array<bool, 4, 1>;
 
-  bool worth_asking(const StoneOutline& outline, float x, float y);
-  Votes votes_for(const StoneOutline& outline, float x, float y);
-  void vote(int x, int y, float least, const StoneOutline& outline);
+  FourPlaces edges(const Places& places, const OutlineMark& mark);
+  Asked worth_asking(const StoneOutline& outline, const Places& places);
+  VotesOfFour votes_for(const StoneOutline& outline, const Places& places);
+  void vote(const Places& places, float least, const StoneOutline& outline);
   void collect(const StoneGroups& groups, float least);
   void sort_ballots();
   void take_peaks(const StonePicture& picture, float least, std::size_t most);

@@ -13,17 +13,25 @@ constexpr float least_light = 0.004F;
 constexpr double bright_share = 0.3;  // of the blocks: white ice is among them
 constexpr float least_share = 0.05F;
 
-std::uint8_t high_level(const cv::Mat& bgr, const cv::Rect& block, int channel) {
-  std::array<int, 256> histogram{};
+/// Of blue, green and red.
+std::array<std::uint8_t, 3> high_levels(const cv::Mat& bgr, const cv::Rect& block) {
+  std::array<std::array<int, 256>, 3> histograms{};
   int count = 0;
   for (int y = block.y; y < block.br().y; y += step_px) {
-    const std::uint8_t* row = bgr.ptr<std::uint8_t>(y);
-    for (int x = block.x; x < block.br().x; x += step_px, ++count) ++histogram[row[3 * x + channel]];
+    const std::uint8_t* in = bgr.ptr<std::uint8_t>(y) + 3 * block.x;
+    for (int x = block.x; x < block.br().x; x += step_px, ++count, in += 3 * step_px) {
+      for (std::size_t k = 0; k < 3; ++k) ++histograms[k][in[k]];
+    }
   }
-  int seen = 0;
-  std::size_t level = 0;
-  while (level < 255 && (seen += histogram[level]) < percentile * count) ++level;
-  return static_cast<std::uint8_t>(level);
+  std::array<std::uint8_t, 3> levels{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    // From above: ice is light.
+    int up_to = count;
+    std::size_t level = 255;
+    while (level > 0 && up_to - histograms[k][level] >= percentile * count) up_to -= histograms[k][level--];
+    levels[k] = static_cast<std::uint8_t>(level);
+  }
+  return levels;
 }
 
 float sum_of(const std::array<float, 3>& light) { return light[0] + light[1] + light[2]; }
@@ -66,9 +74,9 @@ WhiteLight::WhiteLight(const cv::Mat& bgr, const ResponseCurve& response, int to
     for (int c = 0; c < columns_; ++c) {
       const cv::Rect block =
           cv::Rect(c * block_px, top_ + r * block_px, block_px, block_px) & cv::Rect(0, 0, bgr.cols, bgr.rows);
-      for (int k = 0; k < 3; ++k) {
-        own[static_cast<std::size_t>(r * columns_ + c)][static_cast<std::size_t>(k)] =
-            std::max(least_light, response.linear(high_level(bgr, block, k)));
+      const auto levels = high_levels(bgr, block);
+      for (std::size_t k = 0; k < 3; ++k) {
+        own[static_cast<std::size_t>(r * columns_ + c)][k] = std::max(least_light, response.linear(levels[k]));
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "vision/far_view/far_verdict.hpp"
 #include "vision/far_view/far_view_impl.hpp"
 #include "vision/handle_angle.hpp"
+#include "vision/picture/picture_shape.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -39,12 +40,7 @@ ScreeningOptions quick_screening() {
 }
 
 std::string unusable(const cv::Mat& image, const Intrinsics& intrinsics, const FarPlan& plan) {
-  if (image.empty()) return "the picture is empty";
-  if (image.type() != CV_8UC3) return "the picture is not 8 bits a channel in three colours";
-  if (image.cols != intrinsics.width_px || image.rows != intrinsics.height_px) {
-    return "the picture is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) + ", the rig's camera " +
-           std::to_string(intrinsics.width_px) + "x" + std::to_string(intrinsics.height_px);
-  }
+  if (std::string fault = shape_fault(image, intrinsics); !fault.empty()) return fault;
   if (!is_finite(plan.eMc) || !(plan.eMc.translation().z() > least_height_m)) {
     return "the plan puts the camera nowhere above the ice";
   }

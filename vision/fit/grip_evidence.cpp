@@ -112,11 +112,11 @@ Chosen pixels_of(const StonePicture& picture, const cv::Rect& area) {
 }
 
 void keep_within(const StonePlace& sweep, const Eigen::Vector3d& eye, Chosen& all) {
-  DiscDistances inside;
-  handle_distances(sweep, eye, all.sights, inside);
+  Pixels inside;
+  handle_px(sweep, eye, all.sights, inside);
   Eigen::Index kept = 0;
   for (Eigen::Index i = 0; i < all.count; ++i) {
-    if (inside.px[i] > -1.0F) all.move(i, kept++);
+    if (inside[i] > -1.0F) all.move(i, kept++);
   }
   all.cut_to(kept);
 }
@@ -137,17 +137,17 @@ Pixels clear_of(const StonePicture& picture, const GripShape& shape, const Eigen
                 const std::vector<Eigen::Vector2d>& others, const SightLines& sights) {
   const Eigen::Vector3d eye = picture.eye();
   Pixels clear = Pixels::Ones(sights.x.size());
-  DiscDistances plate;
-  DiscDistances grip;
-  BodyDistances body;
+  Pixels plate;
+  Pixels grip;
+  Pixels body;
   for (const Eigen::Vector2d& other : others) {
     const double apart_m = (other - place).norm();
     if (apart_m > neighbour_m || apart_m < 0.5 * picture.shape.body_radius_m) continue;
     const Outlines its(picture, shape, other);
-    handle_distances(its.stone, eye, sights, plate);
-    handle_distances(its.sweep, eye, sights, grip);
-    body_distances(its.stone, eye, sights, body);
-    clear *= (plate.px.max(grip.px).max(body.px) < hidden_px).cast<float>();
+    handle_px(its.stone, eye, sights, plate);
+    handle_px(its.sweep, eye, sights, grip);
+    body_px(its.stone, eye, sights, body);
+    clear *= (plate.max(grip).max(body) < hidden_px).cast<float>();
   }
   return clear;
 }
@@ -185,20 +185,12 @@ class Surroundings {
     Eigen::Array3f left;
     Eigen::Array3f right;
     row_ = y;
-    known_ = mean(window_.left, y, -1.0F, left) && mean(window_.right, y, 1.0F, right);
+    const auto at = static_cast<float>(y);
+    known_ = source_.mean_of_three(window_.left, at, -1.0F, 0.0F, left) &&
+             source_.mean_of_three(window_.right, at, 1.0F, 0.0F, right);
     if (!known_) return;
     left_ = weighed_parts(left);
     either_ = weighed_parts(right) - left_;
-  }
-
-  bool mean(float x, int y, float sense, Eigen::Array3f& sum) const {
-    sum.setZero();
-    for (int i = 0; i < 3; ++i) {
-      Eigen::Array3f light;
-      if (!source_.at(x + sense * static_cast<float>(i), static_cast<float>(y), light)) return false;
-      sum += light / 3.0F;
-    }
-    return true;
   }
 
   const PatchSource& source_;
@@ -297,12 +289,12 @@ GripEvidence grip_evidence(const StonePicture& picture, const GripShape& shape, 
                     &e.behind_behind}) {
     p->setZero(chosen.count);
   }
-  DiscDistances plate;
-  BodyDistances body;
-  handle_distances(outlines.stone, eye, chosen.sights, plate);
-  body_distances(outlines.stone, eye, chosen.sights, body);
-  const Pixels on_plate = share_inside(plate.px);
-  const Pixels on_granite = (1.0F - on_plate) * share_inside(body.px);
+  Pixels plate;
+  Pixels body;
+  handle_px(outlines.stone, eye, chosen.sights, plate);
+  body_px(outlines.stone, eye, chosen.sights, body);
+  const Pixels on_plate = share_inside(plate);
+  const Pixels on_granite = (1.0F - on_plate) * share_inside(body);
   const Pixels clear = clear_of(picture, shape, place, others, chosen.sights);
 
   const PatchSource source(picture, place);

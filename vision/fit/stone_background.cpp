@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/fit/stone_patch.hpp"
@@ -15,40 +16,63 @@ struct Point {
   Point ahead(float px, const Point& direction) const { return {x + px * direction.x, y + px * direction.y}; }
 };
 
-/// The mean of three samples a pixel apart; false where the picture ends.
 bool mean_light(const PatchSource& source, const Point& from, const Point& step, Eigen::Array3f& mean) {
-  mean.setZero();
-  for (int i = 0; i < 3; ++i) {
-    const Point p = from.ahead(static_cast<float>(i), step);
-    Eigen::Array3f light;
-    if (!source.at(p.x, p.y, light)) return false;
-    mean += light / 3.0F;
-  }
-  return true;
+  return source.mean_of_three(from.x, from.y, step.x, step.y, mean);
 }
 
-/// What is to the left and right of a stone, row by row.
+/// What is to the left and right of a stone, row by row: each row is looked at once, for all that asks for it.
 class Sides {
  public:
   Sides(const PatchSource& source, const StonePixels& pixels)
-      : source_(source), left_(pixels.x.minCoeff()), right_(pixels.x.maxCoeff()) {}
+      : source_(source),
+        left_(static_cast<int>(pixels.x.minCoeff())),
+        right_(static_cast<int>(pixels.x.maxCoeff())),
+        in_picture_(source.holds(left_ - samples + 1, 0) && source.holds(right_ + samples, 0)) {
+    for (Row& row : rows_) row.number = -1;
+  }
 
   /// Between the two sides where they agree; nothing where they do not.
-  bool at(const Point& pixel, Eigen::Array3f& light) const {
-    Eigen::Array3f left;
-    Eigen::Array3f right;
-    if (!mean_light(source_, {left_, pixel.y}, {-1.0F, 0.0F}, left)) return false;
-    if (!mean_light(source_, {right_, pixel.y}, {1.0F, 0.0F}, right)) return false;
+  bool at(const Point& pixel, Eigen::Array3f& light) {
+    if (!in_picture_ || !(pixel.y >= 0.0F) || !source_.holds(left_, static_cast<int>(pixel.y) + 1)) return false;
+    const int above = static_cast<int>(pixel.y);
+    const float v = pixel.y - static_cast<float>(above);
+    const Row& top = row(above);
+    const Row& low = row(above + 1);
+    const Eigen::Array4f left = top.left + v * (low.left - top.left);
+    const Eigen::Array4f right = top.right + v * (low.right - top.right);
     if ((left - right).matrix().norm() > 0.15F + 0.15F * (left + right).matrix().norm()) return false;
-    const float part = (pixel.x - left_) / std::max(1.0F, right_ - left_);
-    light = left + part * (right - left);
+    const float part = (pixel.x - static_cast<float>(left_)) / std::max(1.0F, static_cast<float>(right_ - left_));
+    light = (left + part * (right - left)).head<3>();
     return true;
   }
 
  private:
+  static constexpr int samples = 3;
+  static constexpr std::size_t kept_rows = 64;
+  struct Row {
+    int number;
+    Eigen::Array4f left, right;
+  };
+
+  const Row& row(int number) {
+    Row& kept = rows_[static_cast<std::size_t>(number) % kept_rows];
+    if (kept.number == number) return kept;
+    kept.number = number;
+    kept.left = kept.right = Eigen::Array4f::Zero();
+    for (int i = 0; i < samples; ++i) {
+      kept.left += source_.padded(left_ - i, number);
+      kept.right += source_.padded(right_ + i, number);
+    }
+    kept.left /= static_cast<float>(samples);
+    kept.right /= static_cast<float>(samples);
+    return kept;
+  }
+
   const PatchSource& source_;
-  float left_;
-  float right_;
+  int left_;
+  int right_;
+  bool in_picture_;
+  std::array<Row, kept_rows> rows_;
 };
 
 /// There is something of the handle's colour over the rim: its grip.
@@ -84,10 +108,8 @@ struct Rim {
 
 class Outline {
  public:
-  Outline(const StonePlace& stone, const Eigen::Vector3d& eye, const StonePixels& pixels) : pixels_(pixels) {
-    handle_distances(stone, eye, pixels.sights, handle_);
-    body_distances(stone, eye, pixels.sights, body_);
-  }
+  Outline(const DiscDistances& handle, const BodyDistances& body, const StonePixels& pixels)
+      : pixels_(pixels), handle_(handle), body_(body) {}
   bool on_far_rim(Eigen::Index i) const { return handle_.px[i] > body_.px[i]; }
   float inside_px(Eigen::Index i) const { return std::max(handle_.px[i], body_.px[i]); }
   Rim rim(Eigen::Index i) const {
@@ -98,16 +120,17 @@ class Outline {
 
  private:
   const StonePixels& pixels_;
-  DiscDistances handle_;
-  BodyDistances body_;
+  const DiscDistances& handle_;
+  const BodyDistances& body_;
 };
 
 }  // namespace
 
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& pixels) {
+void look_behind(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body,
+                 StonePixels& pixels) {
   if (pixels.count() == 0) return;
-  const Outline outline(stone, eye, pixels);
-  const Sides sides(source, pixels);
+  const Outline outline(handle, body, pixels);
+  Sides sides(source, pixels);
   pixels.usable.setOnes();
   pixels.behind.setZero();
   for (Eigen::Index i = 0; i < pixels.count(); ++i) {
@@ -122,15 +145,15 @@ void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen
   }
 }
 
-void leave_out_grip(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
+void leave_out_grip(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body, double eye_m,
                     const Light& handle_colour, StonePixels& pixels) {
   if (pixels.count() == 0) return;
-  const Outline outline(stone, eye, pixels);
+  const Outline outline(handle, body, pixels);
   const Eigen::Array3f colour = handle_colour.cast<float>().array();
   for (Eigen::Index i = 0; i < pixels.count(); ++i) {
     if (!(pixels.usable[i] > 0.0F) || !outline.on_far_rim(i) || outline.inside_px(i) > reach_px) continue;
     const Rim rim = outline.rim(i);
-    const float far_px = grip_px(pixels.sights, i, eye.z());
+    const float far_px = grip_px(pixels.sights, i, eye_m);
     if (grip_over(source, rim.at, rim.outward, far_px, colour, pixels.behind.row(i).transpose())) {
       pixels.usable[i] = 0.0F;
     }

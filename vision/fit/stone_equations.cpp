@@ -12,65 +12,61 @@ namespace {
 
 constexpr float telling_light = 0.12F;  // a pixel that the stone changes by less tells nothing
 constexpr float foretold_share = 0.5F;  // of that change may be left unexplained
+constexpr int fine_blur = 7;            // numbers of the model: of brightness,
+constexpr int coarse_blur = 8;          // and of colours
 
 }  // namespace
 
-/// Sums over the pixels: of place and shared numbers, of one part's colours, and what they share.
+/// Normal equations of place and shared numbers.
 struct StoneModel::Equations {
   ModelMatrix normal = ModelMatrix::Zero();
   ModelVector right = ModelVector::Zero();
 
-  /// The first `numbers` slopes without number `none`, which is zero.
-  void add(const Slopes& slopes, int numbers, int none, const Basis& basis, const Pixels& residuals,
-           const Pixels& weights);
+  /// Of the first so many slopes; the one after the last number that all parts share is by number `blur`.
+  void add(const ProductSums::Sums& sums, int slopes, int blur);
 };
 
 // The colours of this part are eliminated at once: they are its own.
-void StoneModel::Equations::add(const Slopes& slopes, int numbers, int none, const Basis& basis,
-                                const Pixels& residuals, const Pixels& weights) {
-  Eigen::Matrix<double, 3, model_numbers> shared = Eigen::Matrix<double, 3, model_numbers>::Zero();
-  Eigen::Matrix3d colours = 1e-6 * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d colours_right;
-  for (int i = 0; i < numbers; ++i) {
-    if (i == none) continue;
-    const Pixels weighed = weights * slopes.col(i);
-    right[i] += static_cast<double>((weighed * residuals).sum());
-    for (int j = 0; j <= i; ++j) normal(i, j) += static_cast<double>((weighed * slopes.col(j)).sum());
-    for (int j = 0; j < 3; ++j) shared(j, i) = static_cast<double>((weighed * basis.col(j)).sum());
-  }
-  for (int i = 0; i < 3; ++i) {
-    const Pixels weighed = weights * basis.col(i);
-    colours_right[i] = static_cast<double>((weighed * residuals).sum());
-    for (int j = 0; j < 3; ++j) colours(i, j) += static_cast<double>((weighed * basis.col(j)).sum());
-  }
+void StoneModel::Equations::add(const ProductSums::Sums& sums, int slopes, int blur) {
+  using Slopes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, model_numbers>;
+  const Slopes shared = sums.block(0, first_slope, 3, slopes);
+  const Eigen::Matrix3d colours = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
   const Eigen::LDLT<Eigen::Matrix3d> solver(colours);
-  normal.triangularView<Eigen::Lower>() -= shared.transpose() * solver.solve(shared);
-  right -= shared.transpose() * solver.solve(colours_right);
+  const Slopes by_colours = solver.solve(shared);
+  const auto number = [blur](int slope) { return slope == fine_blur ? blur : slope; };
+  for (int i = 0; i < slopes; ++i) {
+    const auto own = sums.col(first_slope + i);
+    right[number(i)] += own[residual_column] - by_colours.col(i).dot(sums.col(residual_column).head<3>());
+    for (int j = 0; j <= i; ++j)
+      normal(number(i), number(j)) += own[first_slope + j] - shared.col(i).dot(by_colours.col(j));
+  }
 }
 
 void StoneModel::linearise(const SharedLook& look, bool with_shared) {
+  find_scale();
   find_colours(look);
   residuals_.resize(seen_.count(), 3);
   for (int part = 0; part < 3; ++part) find_residual(part);
 
   // Shot noise grows with the light; what is behind was measured with noise, too.
-  const Pixels noise = 0.02F + 0.5F * (light_.col(0) + behind_.col(0)).max(0.0F);
-  const Pixels sizes =
-      ((residuals_.col(0).square() + colour_weight * (residuals_.col(1).square() + residuals_.col(2).square())) / noise)
-          .sqrt();
-  weigh(noise, sizes);
+  noise_ = 0.02F + 0.5F * (light_.col(0) + behind_.col(0)).max(0.0F);
+  sizes_ = ((residuals_.col(0).square() + colour_weight * (residuals_.col(1).square() + residuals_.col(2).square())) /
+            noise_)
+               .sqrt();
+  weigh();
 
-  Equations sums;
+  Equations equations;
+  ProductSums::Sums products;
   for (int part = 0; part < 3; ++part) {
     find_slopes(part, look, with_shared);
-    const Pixels weights = (part == 0 ? 1.0F : colour_weight) * weight_;
-    sums.add(slopes_, with_shared ? model_numbers : 2, part == 0 ? 8 : 7, blurred(part).basis(shade_),
-             residuals_.col(part), weights);
+    const int slopes = with_shared ? most_slopes : 2;
+    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + slopes, products);
+    equations.add(products, slopes, part == 0 ? fine_blur : coarse_blur);
   }
-  normal_ = sums.normal.selfadjointView<Eigen::Lower>();
-  right_ = sums.right;
-  summarise(sizes, noise);
-  find_scale(sizes);
+  normal_ = equations.normal.selfadjointView<Eigen::Lower>();
+  right_ = equations.right;
+  left_ = static_cast<double>((weight_ * sizes_.square() * noise_).sum());
+  variance_ = left_ / (2.0 * std::max(1.0, static_cast<double>(used_.sum())));
 }
 
 void StoneModel::find_residual(int part) {
@@ -90,35 +86,37 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
   const Pixels handle = (wall * colour[0] - under) * b.by_handle;
   const Pixels face = (1.0F - wall) * colour[0] * b.by_face;
   const Pixels body = (1.0F - b.handle) * (stone - behind_.col(part)) * b.by_body;
-  slopes_.resize(seen_.count(), model_numbers);
-  slopes_.col(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
-  slopes_.col(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
+  fill_basis(part);
+  const auto slope = [this](int i) { return design_.column(first_slope + i); };
+  design_.column(residual_column) = residuals_.col(part);
+  slope(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;
+  slope(1) = handle * handle_.by_y + face * face_.by_y + body * body_.by_y;
   if (!with_shared) return;
-  slopes_.col(2) = -handle * handle_.part * handle_.by_height;
-  slopes_.col(3) = body * body_.by_radius;
-  slopes_.col(4) = body * body_.by_half_height;
-  slopes_.col(5) = handle * handle_.by_radius + face * face_.by_radius;
-  slopes_.col(6) = (b.handle - b.face) * colour[0];
+  slope(2) = -handle * handle_.part * handle_.by_height;
+  slope(3) = body * body_.by_radius;
+  slope(4) = body * body_.by_half_height;
+  slope(5) = handle * handle_.by_radius + face * face_.by_radius;
+  slope(6) = (b.handle - b.face) * colour[0];
   const auto blur = static_cast<float>(part == 0 ? look.blur_px : look.colour_blur_px);
-  slopes_.col(part == 0 ? 7 : 8) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
-  slopes_.col(part == 0 ? 8 : 7).setZero();
+  slope(7) = -(handle * handle_.px + face * face_.px + body * body_.px) / blur;
 }
 
 // Residuals beyond the scale of the last step count less and less.
-void StoneModel::weigh(const Pixels& noise, const Pixels& sizes) {
+void StoneModel::weigh() {
   if (scale_ > 0.0) {
     const auto scale = static_cast<float>(scale_);
-    weight_ = used_ / (noise * (1.0F + (sizes / scale).square()));
+    weight_ = used_ / (noise_ * (1.0F + (sizes_ / scale).square()));
   } else {
-    weight_ = used_ / noise;
+    weight_ = used_ / noise_;
   }
 }
 
-void StoneModel::find_scale(const Pixels& sizes) {
+// Of the last step's residuals; before the first one there are none.
+void StoneModel::find_scale() {
   std::array<float, most_pixels> used;
   std::size_t count = 0;
-  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-    if (used_[i] > 0.0F) used[count++] = sizes[i];
+  for (Eigen::Index i = 0; i < sizes_.size(); ++i) {
+    if (used_[i] > 0.0F) used[count++] = sizes_[i];
   }
   if (count == 0) return;
   const auto middle = used.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -126,17 +124,14 @@ void StoneModel::find_scale(const Pixels& sizes) {
   scale_ = std::max(0.02, 2.0 * static_cast<double>(*middle));
 }
 
-void StoneModel::summarise(const Pixels& sizes, const Pixels& noise) {
-  const auto left = static_cast<double>((weight_ * sizes.square() * noise).sum());
+void StoneModel::conclude() {
   const auto plain_left = static_cast<double>((weight_ * residuals_.col(0).square()).sum());
   const PixelColours change = light_ - behind_;
   const auto difference = static_cast<double>(
       (weight_ * (change.col(0).square() + colour_weight * (change.col(1).square() + change.col(2).square()))).sum());
   const auto weights = static_cast<double>(weight_.sum());
-  const double count = std::max(1.0, static_cast<double>(used_.sum()));
-  variance_ = left / (2.0 * count);
   residual_ = weights > 0.0 ? std::sqrt(plain_left / weights) : 0.0;
-  explained_ = difference > 0.0 ? 1.0 - left / difference : 0.0;
+  explained_ = difference > 0.0 ? 1.0 - left_ / difference : 0.0;
   count_told(change);
 }
 

@@ -89,6 +89,7 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
   prior_ = numbers_of(look_);
   if (options.begin_with) look_ = *options.begin_with;
   stones_.clear();
+  stones_.reserve(starts.size());
   for (const StoneStart& start : starts) {
     stones_.emplace_back(picture, look_, start.place, options.pixels);
     if (start.granite) stones_.back().expect_granite(*start.granite);
@@ -107,7 +108,10 @@ const StoneFitResult& StoneFitter::run() {
     for (StoneModel& s : stones_) s.linearise(look_, with_shared);
     step(with_shared);
   }
-  for (StoneModel& s : stones_) s.linearise(look_, options_.covariance);
+  for (StoneModel& s : stones_) {
+    s.linearise(look_, options_.covariance);
+    s.conclude();
+  }
   result_.look = look_;
   result_.stones.clear();
   const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();

@@ -58,17 +58,13 @@ StonePlace StoneModel::stands(const SharedLook& look) const {
 }
 
 void StoneModel::look_behind(const SharedLook& look) {
-  const StonePlace stone = stands(look);
-  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
-  const SharedVector numbers = numbers_of(look);
-  if (!looked_behind_ || !same(looked_at_, place_) || !same(looked_with_, numbers)) {
-    vision::look_behind(source_, stone, eye_, seen_);
+  draw(look);
+  if (!looked_behind_) {
+    vision::look_behind(source_, handle_, body_, seen_);
     behind_ = in_parts(seen_.behind);
     looked_behind_ = true;
-    looked_at_ = place_;
-    looked_with_ = numbers;
   }
-  if (coloured_) leave_out_grip(source_, stone, eye_, handle_colour(), seen_);
+  if (coloured_) leave_out_grip(source_, handle_, body_, eye_.z(), handle_colour(), seen_);
   seen_.usable *= open_;
   grip_.setZero(seen_.count());
 }
@@ -92,18 +88,18 @@ void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) 
   StonePlace grip = front;
   grip.shape.handle_height_m += grip_height_m;
   grip.shape.handle_thickness_m = grip_height_m;
-  DiscDistances handle;
-  BodyDistances body;
-  handle_distances(front, eye_, seen_.sights, handle);
-  body_distances(front, eye_, seen_.sights, body);
-  const Pixels nearest = handle.px.max(body.px);
-  handle_distances(grip, eye_, seen_.sights, handle);
-  handle_distances(stands(look), eye_, seen_.sights, handle_);
+  draw(look);
+  Pixels handle;
+  Pixels body;
+  handle_px(front, eye_, seen_.sights, handle);
+  body_px(front, eye_, seen_.sights, body);
+  const Pixels nearest = handle.max(body);
+  handle_px(grip, eye_, seen_.sights, handle);
   const Light grips = parts_of(nearer.handle);
   const bool alike = !coloured_ || likeness(colours_.row(0).transpose(), grips) > 0.5;
   for (Eigen::Index i = 0; i < seen_.count(); ++i) {
     if (nearest[i] > hidden_px) seen_.usable[i] = 0.0F;
-    if (!(handle.px[i] > 0.0F)) continue;
+    if (!(handle[i] > 0.0F)) continue;
     if (likeness(light_.row(i).cast<double>().transpose(), grips) < least_grip) continue;
     if (alike && handle_.px[i] > -1.0F) {
       grip_[i] = 1.0F;
@@ -116,55 +112,68 @@ void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) 
 void StoneModel::Blurred::mix(const DiscDistances& handle_at, const DiscDistances& face_at,
                               const BodyDistances& body_at, float blur_px, float wall_light) {
   const Eigen::Index count = handle_at.px.size();
-  for (Pixels* p : {&handle, &face, &body, &by_handle, &by_face, &by_body}) p->resize(count);
+  for (Pixels* p : {&plate, &handle, &face, &body, &granite, &by_handle, &by_face, &by_body}) p->resize(count);
   const float sharp = 1.0F / blur_px;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    normal_table.at(handle_at.px[i] * sharp, handle[i], by_handle[i]);
-    normal_table.at(face_at.px[i] * sharp, face[i], by_face[i]);
-    normal_table.at(body_at.px[i] * sharp, body[i], by_body[i]);
+  for (Eigen::Index i = 0; i < count; i += 4) {
+    const auto blurred = [i, sharp](const Pixels& px, Pixels& share, Pixels& by_px) -> Four {
+      Four integral;
+      Four density;
+      normal_table.at(four(px, i) * sharp, integral, density);
+      four(share, i) = integral;
+      four(by_px, i) = density * sharp;
+      return integral;
+    };
+    const Four handle_here = blurred(handle_at.px, handle, by_handle);
+    const Four face_here = blurred(face_at.px, face, by_face);
+    const Four body_here = blurred(body_at.px, body, by_body);
+    four(plate, i) = wall_light * handle_here + (1.0F - wall_light) * face_here;
+    four(granite, i) = (1.0F - handle_here) * body_here;
   }
-  by_handle *= sharp;
-  by_face *= sharp;
-  by_body *= sharp;
-  plate = wall_light * handle + (1.0F - wall_light) * face;
-  granite = (1.0F - handle) * body;
 }
 
-StoneModel::Basis StoneModel::Blurred::basis(const Pixels& shade) const {
-  Basis b(plate.size(), 3);
-  b.col(0) = plate;
-  b.col(1) = granite;
-  b.col(2) = granite * shade;
-  return b;
+void StoneModel::fill_basis(int part) {
+  const Blurred& b = blurred(part);
+  design_.begin(seen_.count());
+  design_.column(0) = b.plate;
+  design_.column(1) = b.granite;
+  design_.column(2) = b.granite * shade_;
 }
 
-void StoneModel::mix(const SharedLook& look) {
+// Once for each place and look.
+void StoneModel::draw(const SharedLook& look) {
+  const auto same = [](const auto& a, const auto& b) { return (a.array() == b.array()).all(); };
+  const SharedVector numbers = numbers_of(look);
+  if (drawn_ && same(drawn_at_, place_) && same(drawn_with_, numbers)) return;
   const StonePlace stone = stands(look);
   handle_distances(stone, eye_, seen_.sights, handle_);
   face_distances(stone, eye_, seen_.sights, face_);
   body_distances(stone, eye_, seen_.sights, body_);
-  const auto own_foot = body_.px > handle_.px && body_.height < foot_height && body_.px < near_foot_px;
-  used_ = own_foot.select(0.0F, seen_.usable);
   const auto wall = static_cast<float>(look.wall_light);
   fine_.mix(handle_, face_, body_, static_cast<float>(look.blur_px), wall);
   coarse_.mix(handle_, face_, body_, static_cast<float>(look.colour_blur_px), wall);
+  drawn_ = true;
+  drawn_at_ = place_;
+  drawn_with_ = numbers;
+  looked_behind_ = false;
+}
+
+void StoneModel::choose_pixels() {
+  const auto own_foot = body_.px > handle_.px && body_.height < foot_height && body_.px < near_foot_px;
+  used_ = own_foot.select(0.0F, seen_.usable);
 }
 
 void StoneModel::find_colours(const SharedLook& look) {
-  mix(look);
+  draw(look);
+  choose_pixels();
   const Pixels weights = weight_ * used_;
+  ProductSums::Sums sums;
   for (int part = 0; part < 3; ++part) {
     const Blurred& b = blurred(part);
-    const Basis basis = b.basis(shade_);
-    const Pixels explained = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
-    Eigen::Matrix3d normal = 1e-6 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right;
-    for (int i = 0; i < 3; ++i) {
-      const Pixels weighed = weights * basis.col(i);
-      right[i] = static_cast<double>((weighed * explained).sum());
-      for (int j = 0; j <= i; ++j)
-        normal(i, j) = normal(j, i) = normal(i, j) + static_cast<double>((weighed * basis.col(j)).sum());
-    }
+    fill_basis(part);
+    design_.column(residual_column) = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
+    design_.sum_up(weights, first_slope, sums);
+    Eigen::Matrix3d normal = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = sums.col(residual_column).head<3>();
     normal(2, 2) += 1e-2 * normal(1, 1);
     normal(1, 1) += granite_weight_;
     right[1] += granite_weight_ * expected_granite_[part];

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "vision/fit/foreground.hpp"
+#include "vision/fit/product_sums.hpp"
 #include "vision/fit/stone_look.hpp"
 #include "vision/fit/stone_patch.hpp"
 
@@ -50,6 +51,8 @@ class StoneModel {
   /// Normal equations of place and shared numbers, or of the place alone (the others' are zero), with the colours
   /// eliminated; weighs the pixels by their residuals.
   void linearise(const SharedLook& look, bool with_shared);
+  /// How well it is explained where it was linearised last.
+  void conclude();
 
   bool enough() const;                           ///< enough of it is seen to place it
   double visible() const;                        ///< share of its outline's pixels in use
@@ -81,21 +84,23 @@ class StoneModel {
 
     void mix(const DiscDistances& handle_at, const DiscDistances& face_at, const BodyDistances& body_at, float blur_px,
              float wall_light);
-    Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3> basis(const Pixels& shade) const;
   };
-  using Basis = Eigen::Array<float, Eigen::Dynamic, 3, Eigen::ColMajor, most_pixels, 3>;
-  using Slopes = Eigen::Array<float, Eigen::Dynamic, model_numbers, Eigen::ColMajor, most_pixels, model_numbers>;
+  /// Columns of what a part of a pixel's light depends on: three colours, then what is left unexplained, then place,
+  /// shared numbers and the part's own blur, which is not the other parts'.
+  static constexpr int residual_column = 3;
+  static constexpr int first_slope = 4;
+  static constexpr int most_slopes = model_numbers - 1;
   struct Equations;
 
   StonePlace stands(const SharedLook& look) const;
   const Blurred& blurred(int part) const { return part == 0 ? fine_ : coarse_; }
-  void mix(const SharedLook& look);
-  void add_part(int part, const SharedLook& look, const Pixels& weights, Equations& sums);
+  void draw(const SharedLook& look);
+  void choose_pixels();
+  void fill_basis(int part);
   void find_residual(int part);
   void find_slopes(int part, const SharedLook& look, bool with_shared);
-  void weigh(const Pixels& noise, const Pixels& sizes);
-  void find_scale(const Pixels& sizes);
-  void summarise(const Pixels& sizes, const Pixels& noise);
+  void weigh();
+  void find_scale();
   void count_told(const PixelColours& change);
 
   PatchSource source_;
@@ -109,21 +114,25 @@ class StoneModel {
   Pixels grip_;          ///< 1: a nearer stone's grip may cover it; else 0
   Pixels used_;          ///< 1 or 0
   Pixels weight_;
+  Pixels noise_;  ///< variance that each pixel's light should have
+  Pixels sizes_;  ///< of the residuals, in its deviations
   DiscDistances handle_, face_;
   BodyDistances body_;
   Blurred fine_, coarse_;  ///< for brightness, for colours
   PixelColours residuals_;
-  Slopes slopes_;
+  ProductSums design_;                                 ///< of one part at a time
   Eigen::Matrix3d colours_ = Eigen::Matrix3d::Zero();  ///< rows: handle, granite, its slope; columns as light
   ModelMatrix normal_ = ModelMatrix::Zero();
   ModelVector right_ = ModelVector::Zero();
   bool coloured_ = false;
-  bool looked_behind_ = false;  ///< from there, with the shape of these numbers
-  Eigen::Vector2d looked_at_ = Eigen::Vector2d::Zero();
-  SharedVector looked_with_ = SharedVector::Zero();
+  bool drawn_ = false;  ///< distances and shares are of this place and look
+  Eigen::Vector2d drawn_at_ = Eigen::Vector2d::Zero();
+  SharedVector drawn_with_ = SharedVector::Zero();
+  bool looked_behind_ = false;              ///< from there
   Light expected_granite_ = Light::Zero();  ///< as light_; only where granite_weight_ > 0
   double granite_weight_ = 0.0;
   double scale_ = 0.0;
+  double left_ = 0.0;  ///< unexplained, weighed
   double variance_ = 0.0;
   double residual_ = 0.0;
   double explained_ = 0.0;

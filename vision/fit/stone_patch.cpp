@@ -73,12 +73,12 @@ class Sieve {
 
   void settle() {
     tried_.resize(waiting_);
-    handle_distances(stone_, eye_, tried_, handle_);
-    body_distances(stone_, eye_, tried_, body_);
+    handle_px(stone_, eye_, tried_, handle_);
+    body_px(stone_, eye_, tried_, body_);
     tried_.resize(most_pixels);
     for (int i = 0; i < waiting_; ++i) {
-      const float handle = handle_.px[i];
-      const float body = body_.px[i];
+      const float handle = handle_[i];
+      const float body = body_[i];
       if (std::abs(handle) > band_px && std::abs(body) > band_px) continue;
       if (std::max(handle, body) < -band_px) continue;
       full_ = count_ == most_pixels;
@@ -105,8 +105,8 @@ class Sieve {
   Eigen::Vector3d eye_;
   StonePixels& kept_;
   SightLines tried_;
-  DiscDistances handle_;
-  BodyDistances body_;
+  Pixels handle_;
+  Pixels body_;
   std::array<int, most_pixels> columns_{};
   std::array<int, most_pixels> rows_{};
   int waiting_ = 0;
@@ -116,26 +116,36 @@ class Sieve {
 
 }  // namespace
 
-PatchSource::PatchSource(const StonePicture& picture, const Eigen::Vector2d& place) : bgr_(&picture.bgr) {
+PatchSource::PatchSource(const StonePicture& picture, const Eigen::Vector2d& place)
+    : last_x_(static_cast<float>(picture.bgr.cols - 1)),
+      last_y_(static_cast<float>(picture.bgr.rows - 1)),
+      bgr_(&picture.bgr) {
   const auto pixel = picture.camera.project({place.x(), place.y(), picture.shape.handle_height_m});
   const std::array<float, 3> white = pixel ? picture.ice.at(pixel->x(), pixel->y()) : std::array{1.0F, 1.0F, 1.0F};
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 256; ++i)
-      level_[k][i] = picture.response.linear(static_cast<std::uint8_t>(i)) / white[k];
+    for (std::size_t i = 0; i < 256; ++i) {
+      level_[k][i] = Eigen::Array4f::Zero();
+      level_[k][i][static_cast<Eigen::Index>(k)] = picture.response.linear(static_cast<std::uint8_t>(i)) / white[k];
+    }
   }
 }
 
 bool PatchSource::at(float x, float y, Eigen::Array3f& light) const {
-  if (!(x >= 0.0F && y >= 0.0F && x < static_cast<float>(bgr_->cols - 1) && y < static_cast<float>(bgr_->rows - 1))) {
-    return false;
+  Eigen::Array4f sampled;
+  if (!sample(x, y, sampled)) return false;
+  light = sampled.head<3>();
+  return true;
+}
+
+bool PatchSource::mean_of_three(float x, float y, float step_x, float step_y, Eigen::Array3f& mean) const {
+  Eigen::Array4f sum = Eigen::Array4f::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const auto step = static_cast<float>(i);
+    Eigen::Array4f light;
+    if (!sample(x + step * step_x, y + step * step_y, light)) return false;
+    sum += light / 3.0F;
   }
-  const int column = static_cast<int>(x);
-  const int row = static_cast<int>(y);
-  const float u = x - static_cast<float>(column);
-  const float v = y - static_cast<float>(row);
-  const Eigen::Array3f top = at(column, row) * (1.0F - u) + at(column + 1, row) * u;
-  const Eigen::Array3f low = at(column, row + 1) * (1.0F - u) + at(column + 1, row + 1) * u;
-  light = top + v * (low - top);
+  mean = sum.head<3>();
   return true;
 }
 

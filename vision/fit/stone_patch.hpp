@@ -21,16 +21,41 @@ class PatchSource {
   PatchSource(const StonePicture& picture, const Eigen::Vector2d& place);
 
   /// Of a pixel of the picture.
-  Eigen::Array3f at(int x, int y) const {
+  Eigen::Array3f at(int x, int y) const { return padded(x, y).head<3>(); }
+  /// The same and a zero.
+  Eigen::Array4f padded(int x, int y) const {
     const std::uint8_t* p = bgr_->ptr<std::uint8_t>(y) + 3 * x;
-    return {level_[0][p[0]], level_[1][p[1]], level_[2][p[2]]};
+    return level_[0][p[0]] + level_[1][p[1]] + level_[2][p[2]];
   }
+  /// There is such a pixel.
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < bgr_->cols && y < bgr_->rows; }
   /// Bilinear in linear light; false outside the picture.
   bool at(float x, float y, Eigen::Array3f& light) const;
+  /// The mean of three such samples, one pixel apart in the direction of (step_x, step_y).
+  bool mean_of_three(float x, float y, float step_x, float step_y, Eigen::Array3f& mean) const;
 
  private:
+  bool sample(float x, float y, Eigen::Array4f& light) const {
+    if (!(x >= 0.0F && y >= 0.0F && x < last_x_ && y < last_y_)) return false;
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float u = x - static_cast<float>(column);
+    const float v = y - static_cast<float>(row);
+    Eigen::Array4f top = padded(column, row);
+    Eigen::Array4f low = padded(column, row + 1);
+    if (u > 0.0F) {
+      top = top * (1.0F - u) + padded(column + 1, row) * u;
+      low = low * (1.0F - u) + padded(column + 1, row + 1) * u;
+    }
+    light = top + v * (low - top);
+    return true;
+  }
+
+  float last_x_;
+  float last_y_;
   const cv::Mat* bgr_;
-  std::array<std::array<float, 256>, 3> level_;
+  std::array<std::array<Eigen::Array4f, 256>, 3>
+      level_;  ///< of each channel, in its own place among zeros: to be added
 };
 
 struct StonePixels {
@@ -49,10 +74,12 @@ void gather_stone_pixels(const PatchSource& source, const SheetCamera& camera, c
                          StonePixels& pixels);
 
 /// Looks outward past the stone's outline for what is behind it. Pixels for which that can not be told are marked.
-void look_behind(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye, StonePixels& pixels);
+void look_behind(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body,
+                 StonePixels& pixels);
 
 /// Marks pixels of the far rim over which something of the handle's colour is seen: its grip. What is behind is known.
-void leave_out_grip(const PatchSource& source, const StonePlace& stone, const Eigen::Vector3d& eye,
+/// `eye_m` is the camera's height.
+void leave_out_grip(const PatchSource& source, const DiscDistances& handle, const BodyDistances& body, double eye_m,
                     const Light& handle_colour, StonePixels& pixels);
 
 }  // namespace hogline::vision

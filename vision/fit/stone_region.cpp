@@ -1,33 +1,117 @@
 #include "vision/fit/stone_region.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <type_traits>
 
 namespace hogline::vision {
 namespace {
 
 constexpr float tiny = 1e-9F;
 
-// Of the discs `d.part` of the thickness below the upper rim.
-void disc_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d) {
+/// Nearest to the axis of the discs of a wall, or its upper face alone.
+enum class Plate { wall, face };
+
+void set_count(Pixels& px, Eigen::Index count) { px.resize(count); }
+
+void set_count(DiscDistances& d, Eigen::Index count) {
+  for (Pixels* p : {&d.px, &d.outward_x, &d.outward_y, &d.by_x, &d.by_y, &d.by_height, &d.by_radius, &d.part}) {
+    p->resize(count);
+  }
+}
+
+void set_count(BodyDistances& d, Eigen::Index count) {
+  for (Pixels* p : {&d.px, &d.outward_x, &d.outward_y, &d.by_x, &d.by_y, &d.by_radius, &d.by_half_height, &d.height}) {
+    p->resize(count);
+  }
+}
+
+Pixels& px_of(Pixels& px) { return px; }
+Pixels& px_of(DiscDistances& d) { return d.px; }
+Pixels& px_of(BodyDistances& d) { return d.px; }
+
+// Distances are all there is to know, or, as plain pixels, those alone.
+//
+// A line of sight is deepest in the cylinder where it comes nearest to the axis, or at the nearer of the two rims.
+template <Plate plate, typename Distances>
+void disc_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Distances& d) {
   const auto drop = static_cast<float>(eye.z() - stone.shape.handle_height_m);
   const auto thickness = static_cast<float>(stone.shape.handle_thickness_m);
+  const auto some_thickness = static_cast<float>(std::max(1e-4, stone.shape.handle_thickness_m));
   const auto from_x = static_cast<float>(eye.x() - stone.place.x());
   const auto from_y = static_cast<float>(eye.y() - stone.place.y());
-  const Pixels depth = drop + thickness * d.part;
-  Pixels normal_x = from_x + depth * sights.x;
-  Pixels normal_y = from_y + depth * sights.y;
-  const Pixels radius = (normal_x.square() + normal_y.square()).sqrt().max(tiny);
-  normal_x /= radius;
-  normal_y /= radius;
-  d.outward_x = depth * (sights.x_by_column * normal_x + sights.y_by_column * normal_y);
-  d.outward_y = depth * (sights.x_by_row * normal_x + sights.y_by_row * normal_y);
-  d.by_radius = (d.outward_x.square() + d.outward_y.square()).sqrt().max(tiny).inverse();
-  d.outward_x *= d.by_radius;
-  d.outward_y *= d.by_radius;
-  d.px = d.by_radius * (static_cast<float>(stone.shape.handle_radius_m) - radius);
-  d.by_x = d.by_radius * normal_x;
-  d.by_y = d.by_radius * normal_y;
-  d.by_height = d.by_x * sights.x + d.by_y * sights.y;
+  const auto handle_radius = static_cast<float>(stone.shape.handle_radius_m);
+  set_count(d, sights.x.size());
+  for (Eigen::Index i = 0; i < sights.x.size(); i += 4) {
+    const Four x = four(sights.x, i);
+    const Four y = four(sights.y, i);
+    Four part = Four::Zero();
+    if constexpr (plate == Plate::wall) {
+      const Four square = (x.square() + y.square()).max(tiny);
+      part = ((-(from_x * x + from_y * y) / square - drop) / some_thickness).max(0.0F).min(1.0F);
+    }
+    const Four depth = drop + thickness * part;
+    Four normal_x = from_x + depth * x;
+    Four normal_y = from_y + depth * y;
+    const Four radius = (normal_x.square() + normal_y.square()).sqrt().max(tiny);
+    normal_x /= radius;
+    normal_y /= radius;
+    const Four outward_x = depth * (four(sights.x_by_column, i) * normal_x + four(sights.y_by_column, i) * normal_y);
+    const Four outward_y = depth * (four(sights.x_by_row, i) * normal_x + four(sights.y_by_row, i) * normal_y);
+    const Four scale = (outward_x.square() + outward_y.square()).sqrt().max(tiny).inverse();
+    four(px_of(d), i) = scale * (handle_radius - radius);
+    if constexpr (!std::is_same_v<Distances, Pixels>) {
+      const Four by_x = scale * normal_x;
+      const Four by_y = scale * normal_y;
+      four(d.part, i) = part;
+      four(d.outward_x, i) = outward_x * scale;
+      four(d.outward_y, i) = outward_y * scale;
+      four(d.by_x, i) = by_x;
+      four(d.by_y, i) = by_y;
+      four(d.by_height, i) = by_x * x + by_y * y;
+      four(d.by_radius, i) = scale;
+    }
+  }
+}
+
+// In coordinates in which the ellipsoid is a ball of radius 1, the distance of the line of sight from its middle.
+template <typename Distances>
+void ball_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Distances& d) {
+  const auto by_radius = static_cast<float>(1.0 / stone.shape.body_radius_m);
+  const auto by_half = static_cast<float>(1.0 / stone.shape.body_half_height_m);
+  const auto eye_z = static_cast<float>(eye.z());
+  const float from_x = static_cast<float>(eye.x() - stone.place.x()) * by_radius;
+  const float from_y = static_cast<float>(eye.y() - stone.place.y()) * by_radius;
+  const float from_z = static_cast<float>(eye.z() - stone.shape.body_half_height_m) * by_half;
+  set_count(d, sights.x.size());
+  for (Eigen::Index i = 0; i < sights.x.size(); i += 4) {
+    const Four along_x = four(sights.x, i) * by_radius;
+    const Four along_y = four(sights.y, i) * by_radius;
+    const Four square = along_x.square() + along_y.square() + by_half * by_half;
+    const Four way = (by_half * from_z - from_x * along_x - from_y * along_y) / square;  // to the nearest point
+    Four normal_x = from_x + way * along_x;
+    Four normal_y = from_y + way * along_y;
+    Four height = from_z - way * by_half;
+    const Four level = normal_x.square() + normal_y.square();
+    const Four distance = (level + height.square()).sqrt().max(tiny);
+    normal_x /= distance;
+    normal_y /= distance;
+    const Four outward_x =
+        by_radius * way * (four(sights.x_by_column, i) * normal_x + four(sights.y_by_column, i) * normal_y);
+    const Four outward_y =
+        by_radius * way * (four(sights.x_by_row, i) * normal_x + four(sights.y_by_row, i) * normal_y);
+    const Four scale = (outward_x.square() + outward_y.square()).sqrt().max(tiny).inverse();
+    four(px_of(d), i) = scale * (1.0F - distance);
+    if constexpr (!std::is_same_v<Distances, Pixels>) {
+      height /= distance;
+      four(d.height, i) = height;
+      four(d.outward_x, i) = outward_x * scale;
+      four(d.outward_y, i) = outward_y * scale;
+      four(d.by_x, i) = by_radius * scale * normal_x;
+      four(d.by_y, i) = by_radius * scale * normal_y;
+      four(d.by_radius, i) = by_radius * scale * level / distance;
+      four(d.by_half_height, i) = by_half * by_half * scale * height * (eye_z - way);
+    }
+  }
 }
 
 }  // namespace
@@ -36,53 +120,24 @@ void SightLines::resize(Eigen::Index count) {
   for (Pixels* p : {&x, &y, &x_by_column, &x_by_row, &y_by_column, &y_by_row}) p->resize(count);
 }
 
-// A line of sight is deepest in the cylinder where it comes nearest to the axis, or at the nearer of the two rims.
 void handle_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d) {
-  const auto drop = static_cast<float>(eye.z() - stone.shape.handle_height_m);
-  const auto thickness = static_cast<float>(std::max(1e-4, stone.shape.handle_thickness_m));
-  const auto from_x = static_cast<float>(eye.x() - stone.place.x());
-  const auto from_y = static_cast<float>(eye.y() - stone.place.y());
-  const Pixels square = (sights.x.square() + sights.y.square()).max(tiny);
-  d.part = (-(from_x * sights.x + from_y * sights.y) / square - drop) / thickness;
-  d.part = d.part.max(0.0F).min(1.0F);
-  disc_distances(stone, eye, sights, d);
+  disc_distances<Plate::wall>(stone, eye, sights, d);
 }
 
 void face_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d) {
-  d.part.setZero(sights.x.size());
-  disc_distances(stone, eye, sights, d);
+  disc_distances<Plate::face>(stone, eye, sights, d);
 }
 
-// In coordinates in which the ellipsoid is a ball of radius 1, the distance of the line of sight from its middle.
 void body_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, BodyDistances& d) {
-  const auto by_radius = static_cast<float>(1.0 / stone.shape.body_radius_m);
-  const auto by_half = static_cast<float>(1.0 / stone.shape.body_half_height_m);
-  const auto eye_z = static_cast<float>(eye.z());
-  const float from_x = static_cast<float>(eye.x() - stone.place.x()) * by_radius;
-  const float from_y = static_cast<float>(eye.y() - stone.place.y()) * by_radius;
-  const float from_z = static_cast<float>(eye.z() - stone.shape.body_half_height_m) * by_half;
-  const Pixels along_x = sights.x * by_radius;
-  const Pixels along_y = sights.y * by_radius;
-  const Pixels square = along_x.square() + along_y.square() + by_half * by_half;
-  const Pixels way = (by_half * from_z - from_x * along_x - from_y * along_y) / square;  // to the nearest point
-  Pixels normal_x = from_x + way * along_x;
-  Pixels normal_y = from_y + way * along_y;
-  d.height = from_z - way * by_half;
-  const Pixels level = normal_x.square() + normal_y.square();
-  const Pixels distance = (level + d.height.square()).sqrt().max(tiny);
-  normal_x /= distance;
-  normal_y /= distance;
-  d.height /= distance;
-  d.outward_x = by_radius * way * (sights.x_by_column * normal_x + sights.y_by_column * normal_y);
-  d.outward_y = by_radius * way * (sights.x_by_row * normal_x + sights.y_by_row * normal_y);
-  const Pixels scale = (d.outward_x.square() + d.outward_y.square()).sqrt().max(tiny).inverse();
-  d.outward_x *= scale;
-  d.outward_y *= scale;
-  d.px = scale * (1.0F - distance);
-  d.by_x = by_radius * scale * normal_x;
-  d.by_y = by_radius * scale * normal_y;
-  d.by_radius = by_radius * scale * level / distance;
-  d.by_half_height = by_half * by_half * scale * d.height * (eye_z - way);
+  ball_distances(stone, eye, sights, d);
+}
+
+void handle_px(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Pixels& px) {
+  disc_distances<Plate::wall>(stone, eye, sights, px);
+}
+
+void body_px(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Pixels& px) {
+  ball_distances(stone, eye, sights, px);
 }
 
 }  // namespace hogline::vision

@@ -8,10 +8,19 @@
 
 namespace hogline::vision {
 
-inline constexpr int most_pixels = 512;
+inline constexpr int most_pixels = 512;  ///< a multiple of four
 
 /// One number for each pixel of a stone. Nothing is allocated.
 using Pixels = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, most_pixels, 1>;
+
+/// Four of them at once, from a multiple of four on. Beyond the last one there is room, and nothing of meaning.
+using Four = Eigen::Array4f;
+inline Eigen::Map<const Four, Eigen::Aligned16> four(const Pixels& p, Eigen::Index i) {
+  return Eigen::Map<const Four, Eigen::Aligned16>(p.data() + i);
+}
+inline Eigen::Map<Four, Eigen::Aligned16> four(Pixels& p, Eigen::Index i) {
+  return Eigen::Map<Four, Eigen::Aligned16>(p.data() + i);
+}
 
 /// Pixels' lines of sight in e, scaled to descend by one metre: (x, y, -1); and how they turn from pixel to pixel.
 struct SightLines {
@@ -50,5 +59,9 @@ struct BodyDistances {
 void handle_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d);
 void face_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, DiscDistances& d);
 void body_distances(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, BodyDistances& d);
+
+/// The distances alone.
+void handle_px(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Pixels& px);
+void body_px(const StonePlace& stone, const Eigen::Vector3d& eye, const SightLines& sights, Pixels& px);
 
 }  // namespace hogline::vision

@@ -36,25 +36,28 @@ double one_to_one_radius(const Radial& radial, double limit) {
   return limit;
 }
 
-struct Distorted {
-  Eigen::Vector2d point;
-  Eigen::Matrix2d jacobian;
-};
-
-Distorted brown_distort(const std::array<double, 5>& k, const Eigen::Vector2d& n) {
+Eigen::Vector2d brown_distort(const std::array<double, 5>& k, const Eigen::Vector2d& n) {
   const double x = n.x();
   const double y = n.y();
   const double p1 = k[2];
   const double p2 = k[3];
   const double r2 = n.squaredNorm();
   const RadialFactor f = brown_radial(k, r2);
-  Distorted d;
-  d.point << x * f.value + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-      y * f.value + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
+  return {x * f.value + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+          y * f.value + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+}
+
+Eigen::Matrix2d brown_jacobian(const std::array<double, 5>& k, const Eigen::Vector2d& n) {
+  const double x = n.x();
+  const double y = n.y();
+  const double p1 = k[2];
+  const double p2 = k[3];
+  const RadialFactor f = brown_radial(k, n.squaredNorm());
   const double cross = 2.0 * x * y * f.derivative + 2.0 * p1 * x + 2.0 * p2 * y;
-  d.jacobian << f.value + 2.0 * x * x * f.derivative + 2.0 * p1 * y + 6.0 * p2 * x, cross, cross,
+  Eigen::Matrix2d jacobian;
+  jacobian << f.value + 2.0 * x * x * f.derivative + 2.0 * p1 * y + 6.0 * p2 * x, cross, cross,
       f.value + 2.0 * y * y * f.derivative + 6.0 * p1 * y + 2.0 * p2 * x;
-  return d;
+  return jacobian;
 }
 
 constexpr int max_iterations = 60;
@@ -98,14 +101,15 @@ std::optional<Eigen::Vector2d> Lens::project_brown_conrady(const Eigen::Vector3d
   if (!(cP.z() > 1e-9)) return std::nullopt;
   const Eigen::Vector2d n = cP.head<2>() / cP.z();
   if (!(n.squaredNorm() <= max_radius_ * max_radius_)) return std::nullopt;
-  const Distorted d = brown_distort(intrinsics_.distortion, n);
   if (jacobian != nullptr) {
     Jacobian perspective;
     perspective << 1.0, 0.0, -n.x(), 0.0, 1.0, -n.y();
-    *jacobian = Eigen::Vector2d(intrinsics_.fx_px, intrinsics_.fy_px).asDiagonal() * d.jacobian * perspective / cP.z();
+    *jacobian = Eigen::Vector2d(intrinsics_.fx_px, intrinsics_.fy_px).asDiagonal() *
+                brown_jacobian(intrinsics_.distortion, n) * perspective / cP.z();
   }
-  return Eigen::Vector2d(intrinsics_.cx_px + intrinsics_.fx_px * d.point.x(),
-                         intrinsics_.cy_px + intrinsics_.fy_px * d.point.y());
+  const Eigen::Vector2d distorted = brown_distort(intrinsics_.distortion, n);
+  return Eigen::Vector2d(intrinsics_.cx_px + intrinsics_.fx_px * distorted.x(),
+                         intrinsics_.cy_px + intrinsics_.fy_px * distorted.y());
 }
 
 std::optional<Eigen::Vector2d> Lens::project_kannala_brandt(const Eigen::Vector3d& cP, Jacobian* jacobian) const {
@@ -152,14 +156,13 @@ std::optional<Eigen::Vector3d> Lens::ray_brown_conrady(const Eigen::Vector2d& no
   // Tangential distortion may push a point just over the radial limit: start on it and let the check below decide.
   Eigen::Vector2d n = normalised * (radius.value_or(max_radius_) / radius_d);
   for (int i = 0; i < max_iterations; ++i) {
-    const Distorted d = brown_distort(intrinsics_.distortion, n);
-    const Eigen::Vector2d error = normalised - d.point;
+    const Eigen::Vector2d error = normalised - brown_distort(intrinsics_.distortion, n);
     if (error.squaredNorm() < converged * converged * (1.0 + normalised.squaredNorm())) break;
-    n += d.jacobian.inverse() * error;
+    n += brown_jacobian(intrinsics_.distortion, n).inverse() * error;
     if (!n.allFinite()) return std::nullopt;
   }
   const bool valid = n.squaredNorm() <= max_radius_ * max_radius_ &&
-                     (brown_distort(intrinsics_.distortion, n).point - normalised).norm() < 1e-12 * (1.0 + n.norm());
+                     (brown_distort(intrinsics_.distortion, n) - normalised).norm() < 1e-12 * (1.0 + n.norm());
   if (!valid) return std::nullopt;
   return Eigen::Vector3d(n.x(), n.y(), 1.0);
 }

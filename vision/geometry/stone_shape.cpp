@@ -25,27 +25,33 @@ Bearing bearing_of(const Eigen::Vector2d& place, const Eigen::Vector3d& camera) 
 }
 
 Eigen::Vector3d circle_point(const Eigen::Vector2d& place, const Bearing& bearing, double radius_m, double height_m,
-                             double angle_rad) {
-  const Eigen::Vector2d p =
-      place + radius_m * (std::cos(angle_rad) * bearing.right + std::sin(angle_rad) * bearing.away);
+                             const Turn& turn) {
+  const Eigen::Vector2d p = place + radius_m * (turn.cosine * bearing.right + turn.sine * bearing.away);
   return {p.x(), p.y(), height_m};
 }
 
 // In coordinates in which the ellipsoid is a ball, its outline is the circle in which the cone of tangents touches it.
-Eigen::Vector3d body_outline_point(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera,
-                                   double angle_rad) {
-  const Eigen::Vector3d half(shape.body_radius_m, shape.body_radius_m, shape.body_half_height_m);
-  const Eigen::Vector3d centre(place.x(), place.y(), shape.body_half_height_m);
-  const Eigen::Vector3d eye = (camera - centre).cwiseQuotient(half);
+BodyOutline::BodyOutline(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera)
+    : half_(shape.body_radius_m, shape.body_radius_m, shape.body_half_height_m),
+      centre_(place.x(), place.y(), shape.body_half_height_m) {
+  const Eigen::Vector3d eye = (camera - centre_).cwiseQuotient(half_);
   const double distance = eye.norm();
   assert(distance > 1.0);
   const Eigen::Vector3d towards = eye / distance;
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards).normalized();
-  const Eigen::Vector3d up = towards.cross(right);
-  const double radius = std::sqrt(1.0 - 1.0 / (distance * distance));
-  const Eigen::Vector3d on_ball =
-      towards / distance + radius * (std::cos(angle_rad) * right + std::sin(angle_rad) * up);
-  return centre + on_ball.cwiseProduct(half);
+  right_ = Eigen::Vector3d::UnitZ().cross(towards).normalized();
+  up_ = towards.cross(right_);
+  middle_ = towards / distance;
+  radius_ = std::sqrt(1.0 - 1.0 / (distance * distance));
+}
+
+Eigen::Vector3d BodyOutline::at(const Turn& turn) const {
+  const Eigen::Vector3d on_ball = middle_ + radius_ * (turn.cosine * right_ + turn.sine * up_);
+  return centre_ + on_ball.cwiseProduct(half_);
+}
+
+Eigen::Vector3d body_outline_point(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera,
+                                   const Turn& turn) {
+  return BodyOutline(place, shape, camera).at(turn);
 }
 
 }  // namespace hogline::vision

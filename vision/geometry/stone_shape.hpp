@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 
 #include "vision/geometry/sheet.hpp"
@@ -34,13 +35,32 @@ struct Bearing {
 
 Bearing bearing_of(const Eigen::Vector2d& place, const Eigen::Vector3d& camera);
 
-/// A point of a level circle about a stone's axis; `angle_rad` from the right, counter-clockwise: pi/2 is the far side.
-Eigen::Vector3d circle_point(const Eigen::Vector2d& place, const Bearing& bearing, double radius_m, double height_m,
-                             double angle_rad);
+/// An angle, for whoever needs it again and again. Wherever one is asked for, the plain angle will do.
+struct Turn {
+  double cosine, sine;
+  Turn(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
+};
 
-/// A point of the body's outline as the camera sees it; `angle_rad` about the line of sight from the right: pi/2 is the
-/// outline's top, -pi/2 its foot. Precondition: the camera is outside the body.
+/// A point of a level circle about a stone's axis, `turn` from the right, counter-clockwise: pi/2 is the far side.
+Eigen::Vector3d circle_point(const Eigen::Vector2d& place, const Bearing& bearing, double radius_m, double height_m,
+                             const Turn& turn);
+
+/// A body's outline as the camera sees it. Precondition: the camera is outside the body.
+class BodyOutline {
+ public:
+  BodyOutline(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera);
+
+  /// `turn` about the line of sight from the right: pi/2 is the outline's top, -pi/2 its foot.
+  Eigen::Vector3d at(const Turn& turn) const;
+
+ private:
+  Eigen::Vector3d half_, centre_;
+  Eigen::Vector3d right_, up_, middle_;  ///< where the body is a ball of radius 1
+  double radius_;
+};
+
+/// One point of it.
 Eigen::Vector3d body_outline_point(const Eigen::Vector2d& place, const StoneShape& shape, const Eigen::Vector3d& camera,
-                                   double angle_rad);
+                                   const Turn& turn);
 
 }  // namespace hogline::vision

@@ -122,7 +122,7 @@ TEST_F(ForegroundOf, WhatMayBeGraniteOrAHandleOverItIsNotTakenAway) {
   EXPECT_FALSE(look().hides(middle_.x, middle_.y - 4)) << "a red grip";
   image_.setTo(cv::Scalar::all(220));
   std::uint8_t granite = 0;
-  while (response_.linear(granite) < 0.2F * response_.linear(220)) ++granite;
+  while (response_.linear(granite) < 0.2F * response_.linear(std::uint8_t{220})) ++granite;
   bar(middle_.x - 60, middle_.x + 60, middle_.y - 200, middle_.y + 200, cv::Scalar::all(granite));
   EXPECT_FALSE(look().hides(middle_.x, middle_.y)) << "grey as granite";
 }

@@ -84,6 +84,23 @@ struct Case {
 };
 const Case cases[] = {{"near", 0.4, -1.6}, {"in the house", -0.7, 0.6}, {"before the hog line", 1.4, 6.1}};
 
+TEST(StoneRegion, DistancesAloneAreTheSame) {
+  const SheetCamera c = camera();
+  const Eigen::Vector3d eye = c.eMc().translation();
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.what);
+    const StonePlace stone{{one.x_m, one.y_m}, {}};
+    const auto pixel = c.project({one.x_m, one.y_m, 0.1});
+    ASSERT_TRUE(pixel);
+    const SightLines s = sight(c, *pixel);
+    Pixels px;
+    handle_px(stone, eye, s, px);
+    EXPECT_EQ(static_cast<double>(px[0]), handle_distance(stone, eye, s).px);
+    body_px(stone, eye, s, px);
+    EXPECT_EQ(static_cast<double>(px[0]), body_distance(stone, eye, s).px);
+  }
+}
+
 TEST(StoneRegion, ThePixelsOfAnOutlineAreAtDistanceZero) {
   const SheetCamera c = camera();
   const Eigen::Vector3d eye = c.eMc().translation();
