@@ -19,7 +19,9 @@ constexpr std::array starts{0.0, -1.0, 1.0, -2.0};  // steps along the line of s
 constexpr double rows_a_step = 2.0;
 constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
+constexpr double drift_counts = 0.5;  // of a metre
 constexpr double well_told = 0.92;
+constexpr double hopelessly_told = 0.25;  // and explained: no stone is near
 constexpr double another_place_m = 0.04;
 constexpr double least_foreground = 0.1;  // of the columns: less is noise
 constexpr double most_foreground = 0.7;
@@ -28,14 +30,17 @@ StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .cov
 StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200}; }
 
 // A grip, a ring's edge or a neighbour pulls votes along the line of sight farther than a fit finds back.
-StoneCandidate moved_away(const StonePicture& picture, const StoneCandidate& candidate, double steps) {
-  const Bearing bearing = bearing_of(candidate.place, picture.eye());
+Eigen::Vector2d moved_away(const StonePicture& picture, const Eigen::Vector2d& place, double steps) {
+  const Bearing bearing = bearing_of(place, picture.eye());
   const double row_m = bearing.range_m * bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m) /
                        picture.camera.lens().intrinsics().fy_px;
-  const double step_m = std::clamp(rows_a_step * row_m, least_step_m, most_step_m);
-  StoneCandidate moved = candidate;
-  moved.place += steps * step_m * bearing.away;
-  return moved;
+  return place + steps * std::clamp(rows_a_step * row_m, least_step_m, most_step_m) * bearing.away;
+}
+
+// Of two that came to the same place the one that was there from the start is believed longer.
+double worth(const JudgedStone& s) {
+  const double drift_m = (s.fit.place - s.candidate.place).norm();
+  return s.fit.told * s.fit.explained * (1.0 - drift_counts * std::min(1.0, drift_m));
 }
 
 bool is_better(const JudgedStone& a, const JudgedStone& b) {
@@ -128,15 +133,22 @@ void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedS
   for (const JudgedStone& s : stones) {
     if (!s.doubt.empty()) doubted.push_back(s.candidate);
   }
+  const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<KnownStone> newest = known_of(stones);
+  std::vector<NearerStone> newcomers;
   for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
     const std::size_t before = stones.size();
     std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones), newest);
-    candidates.insert(candidates.end(), doubted.begin(), doubted.end());
+    for (const StoneCandidate& c : doubted) {
+      if (round == 0 || may_be_hidden(c.place, newcomers, eye)) candidates.push_back(c);
+    }
     glimpse_all(picture, candidates, *granite, stones);
     newest.clear();
+    newcomers.clear();
     for (std::size_t i = before; i < stones.size(); ++i) {
-      if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+      if (!stones[i].doubt.empty()) continue;
+      newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+      newcomers.push_back({stones[i].fit.place, stones[i].fit.handle});
     }
   }
 }
@@ -155,9 +167,8 @@ void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<
     if (is_taken(c.place, stones) || !looks_like_a_handle(picture, c.place)) continue;
     glimpsed.push_back(glimpse(picture, c, known, granite));
   }
-  std::sort(glimpsed.begin(), glimpsed.end(), [](const JudgedStone& a, const JudgedStone& b) {
-    return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
-  });
+  std::sort(glimpsed.begin(), glimpsed.end(),
+            [](const JudgedStone& a, const JudgedStone& b) { return worth(a) > worth(b); });
   for (JudgedStone& s : glimpsed) {
     if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = no_room;
     stones.push_back(s);
@@ -198,12 +209,13 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
   const bool in_plain_sight = !before && !may_be_hidden(candidate.place, known, picture.eye().head<2>());
   JudgedStone best;
   for (const double steps : starts) {
-    const StoneCandidate start = moved_away(picture, candidate, steps);
-    fitter_.begin(picture, {{start.place, granite, before ? &*before : nullptr}}, options);
+    const Eigen::Vector2d start = moved_away(picture, candidate.place, steps);
+    fitter_.begin(picture, {{start, granite, before ? &*before : nullptr}}, options);
     const FittedStone& fit = fitter_.run().stones[0];
-    const JudgedStone seen{start, fit, doubt_of_glimpse(start, fit, granite, in_plain_sight), true, before};
+    const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_plain_sight), true, before};
     if (steps == starts.front() || is_better(seen, best)) best = seen;
     if (best.doubt.empty() && best.fit.told > well_told) break;
+    if (seen.fit.told * seen.fit.explained < hopelessly_told) break;
   }
   return best;
 }

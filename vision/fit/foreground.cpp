@@ -7,7 +7,8 @@
 namespace hogline::vision {
 namespace {
 
-constexpr double over_rim_m = 0.10;   // a grip ends below it
+constexpr double over_rim_m = 0.10;  // a grip ends below it
+constexpr double leg_m = 0.30;
 constexpr int beyond_px = 3;          // the stone's own blur and shadow
 constexpr double ice_light = 0.72;    // of white ice: brighter is ice or its glare
 constexpr double ice_colour = 0.15;   // spread of the channels: more is no ice in shade
@@ -49,6 +50,14 @@ cv::Rect covered_by(const StonePicture& picture, const Eigen::Vector2d& place) {
   return area & cv::Rect(0, 0, picture.bgr.cols, picture.bgr.rows);
 }
 
+// Away from the picture's middle what is upright leans: columns to a row.
+double lean_at(const StonePicture& picture, const Eigen::Vector2d& place) {
+  const auto foot = picture.camera.project({place.x(), place.y(), 0.0});
+  const auto head = picture.camera.project({place.x(), place.y(), leg_m});
+  if (!foot || !head || foot->y() - head->y() < 1.0) return 0.0;
+  return (head->x() - foot->x()) / (head->y() - foot->y());
+}
+
 bool may_be_ice(const Light& light) {
   return brightness(light) > ice_light && light.maxCoeff() - light.minCoeff() < ice_colour;
 }
@@ -59,15 +68,16 @@ Foreground::Foreground(const StonePicture& picture, const Eigen::Vector2d& place
                        const TeamHues& teams)
     : granite_(granite), teams_(teams), area_(covered_by(picture, place)) {
   if (area_.empty()) return;
+  lean_ = lean_at(picture, place);
   const PatchSource source(picture, place);
   const auto columns = static_cast<std::size_t>(area_.width);
   std::vector<int> above(columns);
   std::vector<int> below(columns);
   int hidden = 0;
   for (std::size_t c = 0; c < columns; ++c) {
-    const int x = area_.x + static_cast<int>(c);
-    above[c] = end_of_run(source, x, area_.y, area_.br().y, 1);
-    below[c] = end_of_run(source, x, area_.br().y - 1, area_.y - 1, -1) + 1;
+    const int column = static_cast<int>(c);
+    above[c] = end_of_run(source, column, area_.y, area_.br().y, 1);
+    below[c] = end_of_run(source, column, area_.br().y - 1, area_.y - 1, -1) + 1;
     hidden += above[c] > area_.y + beyond_px || below[c] < area_.br().y - beyond_px ? 1 : 0;
   }
   share_ = static_cast<double>(hidden) / static_cast<double>(columns);
@@ -82,6 +92,8 @@ Foreground::Foreground(const StonePicture& picture, const Eigen::Vector2d& place
   }
 }
 
+int Foreground::leaned(int y) const { return static_cast<int>(std::lround(lean_ * (y - area_.y - area_.height / 2))); }
+
 bool Foreground::is_like_granite(const Light& light) const {
   return (light - granite_).norm() < as_granite * granite_.norm();
 }
@@ -92,12 +104,16 @@ bool Foreground::has_a_handles_hue(const Light& light) const {
 }
 
 // What is over a stone may be its own grip, and what is below its foot is no handle of its own.
-int Foreground::end_of_run(const PatchSource& source, int x, int from, int to, int step) const {
-  Light run = source.at(x, from).matrix().cast<double>();
+int Foreground::end_of_run(const PatchSource& source, int column, int from, int to, int step) const {
+  const int last = area_.br().x - 1;
+  const auto light_at = [&](int y) -> Light {
+    return source.at(std::clamp(area_.x + column + leaned(y), area_.x, last), y).matrix().cast<double>();
+  };
+  Light run = light_at(from);
   if (may_be_ice(run) || is_like_granite(run) || (step > 0 && has_a_handles_hue(run))) return from;
   int y = from;
   for (; y != to; y += step) {
-    const Light light = source.at(x, y).matrix().cast<double>();
+    const Light light = light_at(y);
     if ((light - run).norm() > alike + alike_share * run.norm()) break;
     run += follow * (light - run);
   }
@@ -106,8 +122,9 @@ int Foreground::end_of_run(const PatchSource& source, int x, int from, int to, i
 }
 
 bool Foreground::hides(int x, int y) const {
-  if (x < area_.x || x >= area_.br().x || share_ == 0.0) return false;
-  const auto c = static_cast<std::size_t>(x - area_.x);
+  const int column = x - leaned(y) - area_.x;
+  if (column < 0 || column >= area_.width || share_ == 0.0) return false;
+  const auto c = static_cast<std::size_t>(column);
   return y < above_[c] || y >= below_[c];
 }
 

@@ -11,8 +11,8 @@
 namespace hogline::vision {
 
 /// Somebody's leg is seen below a stone's foot, too, and goes up before it in its own colour; an arm comes down the
-/// same way. In each column of the picture, so much is hidden as goes on in the colour that is seen below the stone, or
-/// above its grip, where that is neither ice nor granite nor has a handle's hue.
+/// same way. In each column, which leans as what is upright does, so much is hidden as goes on in the colour that is
+/// seen below the stone, or above its grip, where that is neither ice nor granite nor has a handle's hue.
 class Foreground {
  public:
   /// Looks about `place` and what a stone there would cover, a little to all sides. `granite` is the club's.
@@ -25,14 +25,17 @@ class Foreground {
 
  private:
   /// Of one column, from the row where it begins: how far the colour goes on. `step` is down or up the picture.
-  int end_of_run(const PatchSource& source, int x, int from, int to, int step) const;
+  int end_of_run(const PatchSource& source, int column, int from, int to, int step) const;
 
+  /// By how many columns something upright is off in a row, against the middle row.
+  int leaned(int y) const;
   bool is_like_granite(const Light& light) const;
   bool has_a_handles_hue(const Light& light) const;
 
   Light granite_;
   TeamHues teams_;
   cv::Rect area_;
+  double lean_ = 0.0;
   std::vector<int> above_;  ///< of each column: rows before it are hidden
   std::vector<int> below_;  ///< rows from it on are hidden
   double share_ = 0.0;
