@@ -123,9 +123,12 @@ PatchSource::PatchSource(const StonePicture& picture, const Eigen::Vector2d& pla
   const auto pixel = picture.camera.project({place.x(), place.y(), picture.shape.handle_height_m});
   const std::array<float, 3> white = pixel ? picture.ice.at(pixel->x(), pixel->y()) : std::array{1.0F, 1.0F, 1.0F};
   for (std::size_t k = 0; k < 3; ++k) {
+    Eigen::Array<float, 256, 1> levels;
+    for (int i = 0; i < 256; ++i) levels[i] = picture.response.linear(static_cast<std::uint8_t>(i));
+    levels /= white[k];
     for (std::size_t i = 0; i < 256; ++i) {
       level_[k][i] = Eigen::Array4f::Zero();
-      level_[k][i][static_cast<Eigen::Index>(k)] = picture.response.linear(static_cast<std::uint8_t>(i)) / white[k];
+      level_[k][i][static_cast<Eigen::Index>(k)] = levels[static_cast<Eigen::Index>(i)];
     }
   }
 }
