@@ -21,7 +21,7 @@ constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
 constexpr double drift_counts = 0.5;  // of a metre
 constexpr double well_told = 0.92;
-constexpr double hopelessly_told = 0.25;  // and explained: no stone is near
+constexpr double least_promising = 0.60;  // told at best so far: else no stone is a step or two away
 constexpr double another_place_m = 0.04;
 constexpr double least_foreground = 0.1;  // of the columns: less is noise
 constexpr double most_foreground = 0.7;
@@ -35,6 +35,10 @@ Eigen::Vector2d moved_away(const StonePicture& picture, const Eigen::Vector2d& p
   const double row_m = bearing.range_m * bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m) /
                        picture.camera.lens().intrinsics().fy_px;
   return place + steps * std::clamp(rows_a_step * row_m, least_step_m, most_step_m) * bearing.away;
+}
+
+bool hides_some(const Foreground& before) {
+  return before.share() >= least_foreground && before.share() <= most_foreground;
 }
 
 // Of two that came to the same place the one that was there from the start is believed longer.
@@ -126,13 +130,26 @@ void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedS
   }
 }
 
+// What is alone and in full view has shown by now that it is none, unless its fit came near to one.
+std::vector<StoneCandidate> CrowdScreening::worth_another_look(const StonePicture& picture,
+                                                               const std::vector<JudgedStone>& stones,
+                                                               const Light& granite) const {
+  const std::vector<NearerStone> known = believed(stones);
+  const Eigen::Vector2d eye = picture.eye().head<2>();
+  std::vector<StoneCandidate> worth_it;
+  for (const JudgedStone& s : stones) {
+    if (s.doubt.empty()) continue;
+    const bool promising = s.fit.told >= least_promising || may_be_hidden(s.candidate.place, known, eye) ||
+                           hides_some(Foreground(picture, s.candidate.place, granite, teams_));
+    if (promising) worth_it.push_back(s.candidate);
+  }
+  return worth_it;
+}
+
 void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
   const auto granite = clubs_granite(stones);
   if (!granite) return;
-  std::vector<StoneCandidate> doubted;
-  for (const JudgedStone& s : stones) {
-    if (!s.doubt.empty()) doubted.push_back(s.candidate);
-  }
+  const std::vector<StoneCandidate> doubted = worth_another_look(picture, stones, *granite);
   const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<KnownStone> newest = known_of(stones);
   std::vector<NearerStone> newcomers;
@@ -196,7 +213,7 @@ JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCand
   JudgedStone best = glimpse_from_starts(picture, candidate, known, granite, {});
   if (best.doubt.empty()) return best;
   const Foreground before(picture, candidate.place, granite, teams_);
-  if (before.share() < least_foreground || before.share() > most_foreground) return best;
+  if (!hides_some(before)) return best;
   const JudgedStone half = glimpse_from_starts(picture, candidate, known, granite, before);
   return is_better(half, best) ? half : best;
 }
@@ -215,7 +232,7 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
     const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_plain_sight), true, before};
     if (steps == starts.front() || is_better(seen, best)) best = seen;
     if (best.doubt.empty() && best.fit.told > well_told) break;
-    if (seen.fit.told * seen.fit.explained < hopelessly_told) break;
+    if (best.fit.told < least_promising) break;
   }
   return best;
 }

@@ -38,6 +38,8 @@ class CrowdScreening {
                std::vector<JudgedStone>& stones);
 
  private:
+  std::vector<StoneCandidate> worth_another_look(const StonePicture& picture, const std::vector<JudgedStone>& stones,
+                                                 const Light& granite) const;
   bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
   void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
                    std::vector<JudgedStone>& stones);
