@@ -110,6 +110,9 @@ void LiveRink::exchange() {
   sheet_ ? sheet_->step(world_step) : robot_.rink().step(world_step);
   for (BusEnd& bus : buses_) bus.answer();
   log_.sample(robot_.rink().truth(), now());
+  const bool ran = stone_runs_;
+  stone_runs_ = sheet_ && sheet_->stone_runs();
+  if (ran && !stone_runs_) log_.at_rest(sheet_->field().stones(), sheet_->thrown(), now());
 }
 
 bool LiveRink::put_back() {

@@ -68,6 +68,7 @@ class LiveRink {
   SimulatedRobot robot_;  ///< its devices; the adapters beside them are never stepped
   std::optional<SimulatedSkip> skip_;
   std::optional<hw::sim::TeamRink> sheet_;  ///< both robots' ends of it
+  bool stone_runs_ = false;
   int team_ = 0;                            ///< whose stone is next
   Duration ahead_;                          ///< the steady clock's, of the rink's
   std::deque<BusEnd> buses_;

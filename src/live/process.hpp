@@ -33,7 +33,7 @@ class ServiceManager {
   ServiceManager& operator=(const ServiceManager&) = delete;
 
   void ready(const std::string& status);
-  /// Every control period: tells twice within the watchdog's time that the loop runs.
+  /// Every control period: tells three times within the watchdog's time that the loop runs.
   void alive(Stamp now);
   void stopping();
 

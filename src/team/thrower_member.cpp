@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hw/link/link_config.hpp"
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr Duration state_period = std::chrono::milliseconds(500);
 constexpr Duration longest_age = std::chrono::seconds(2);
-constexpr Duration commander_gone = std::chrono::seconds(1);
 constexpr double standing_radps = 0.002;
 
 // The line of an order over the link runs through the middle of the hack.
@@ -45,7 +45,7 @@ ThrowerMember::ThrowerMember(const config::ThrowerRig& rig, const ThrowerDevices
       gate_({.commander = "skip",
              .session = link.state().session,
              .longest_age = longest_age,
-             .commander_gone = commander_gone}) {}
+             .commander_gone = hw::link::heartbeat_deadline}) {}
 
 void ThrowerMember::step(Stamp now, Duration dt) {
   link_.step(now);
@@ -56,17 +56,35 @@ void ThrowerMember::step(Stamp now, Duration dt) {
 
 void ThrowerMember::listen(Stamp now) {
   while (const auto received = link_.receive(now)) {
-    const hw::Origin& origin = hw::origin_of(received->message);
-    gate_.heard(origin, received->received);
-    if (origin.robot == "skip" && std::exchange(commander_session_, origin.session) != origin.session && !throwing()) {
-      order_serial_ = 0;  // its numbers begin anew
-      refused_.clear();
+    if (std::holds_alternative<hw::HeartbeatMessage>(received->message)) {
+      gate_.heard(hw::origin_of(received->message), received->received);
+      know_commander(now);
     }
     if (const auto* order = std::get_if<hw::ShotOrderMessage>(&received->message)) take(*order, now);
-    if (const auto* stop = std::get_if<hw::EmergencyStopMessage>(&received->message)) {
-      emergency_ = stop->pressed ? "emergency stop by '" + stop->origin.robot + "': " + stop->reason : "";
-    }
+    if (const auto* stop = std::get_if<hw::EmergencyStopMessage>(&received->message)) take(*stop);
   }
+}
+
+void ThrowerMember::know_commander(Stamp now) {
+  const std::uint64_t session = link_.peer_session(now);
+  if (std::exchange(commander_session_, session) == session || throwing()) return;
+  order_serial_ = 0;  // its numbers begin anew
+  refused_.clear();
+}
+
+// Whoever called a stop takes it back, nobody else.
+void ThrowerMember::take(const hw::EmergencyStopMessage& stop) {
+  if (stop.pressed) {
+    stops_[stop.origin.robot] = stop.reason;
+  } else {
+    stops_.erase(stop.origin.robot);
+  }
+}
+
+std::string ThrowerMember::called_stop() const {
+  if (stops_.empty()) return {};
+  const auto& [robot, reason] = *stops_.begin();
+  return "emergency stop by '" + robot + "': " + reason;
 }
 
 void ThrowerMember::take(const hw::ShotOrderMessage& order, Stamp now) {
@@ -75,7 +93,8 @@ void ThrowerMember::take(const hw::ShotOrderMessage& order, Stamp now) {
   refused_ = verdict.reason;
   if (verdict.accepted) refused_ = throwing() ? "another order is being thrown" : not_ready();
   if (refused_.empty()) return begin(order, now);
-  if (!throwing()) order_serial_ = order.origin.serial;
+  // Another's number is none that our commander waits for.
+  if (!throwing() && order.origin.session == commander_session_) order_serial_ = order.origin.serial;
   next_state_ = now;
 }
 
@@ -92,7 +111,7 @@ void ThrowerMember::begin(const hw::ShotOrderMessage& order, Stamp now) {
 
 std::string ThrowerMember::not_ready() const {
   using hw::DrivePhase;
-  if (!emergency_.empty()) return emergency_;
+  if (std::string stop = called_stop(); !stop.empty()) return stop;
   const std::array errors{devices_.drive.state().error, devices_.gripper.state().error, devices_.arm.state().error,
                           devices_.gyro.state().error};
   for (const auto& error : errors)
@@ -111,7 +130,7 @@ void ThrowerMember::load() {
   clear(devices_.gyro, devices_.gyro.state().error);
   clear(devices_.near_camera, devices_.near_camera.error());
   clear(devices_.low_camera, devices_.low_camera.error());
-  emergency_.clear();
+  stops_.clear();
   loading_ = true;
 }
 
@@ -135,7 +154,7 @@ void ThrowerMember::stand_by(Stamp now) {
 // would call their end a fault.
 void ThrowerMember::run(Stamp now, Duration dt) {
   const std::string missing = link_.missing(now);
-  if (!emergency_.empty()) loop_->stop(emergency_);
+  if (!stops_.empty()) loop_->stop(called_stop());
   if (!missing.empty() && !loop_->thrower().released()) loop_->stop("link: " + missing);
   loop_->step(now, dt);
   if (loop_->thrower().diagnosis().freed && !release_told_) tell_release(now);

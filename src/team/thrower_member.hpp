@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,7 +48,10 @@ class ThrowerMember {
 
  private:
   void listen(Stamp now);
+  void know_commander(Stamp now);
   void take(const hw::ShotOrderMessage& order, Stamp now);
+  void take(const hw::EmergencyStopMessage& stop);
+  std::string called_stop() const;
   void begin(const hw::ShotOrderMessage& order, Stamp now);
   void stand_by(Stamp now);
   void run(Stamp now, Duration dt);
@@ -70,7 +74,7 @@ class ThrowerMember {
   std::uint64_t commander_session_ = 0;
   std::string refused_;  ///< why the last order was
   long orders_ = 0;
-  std::string emergency_;
+  std::map<std::string, std::string> stops_;  ///< in force: by whom, and why
   hw::ThrowerStateMessage told_;
   Stamp next_state_{};
 };
