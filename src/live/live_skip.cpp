@@ -31,9 +31,16 @@ const char* word(OrderPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
+const char* fate(servo::StoneFate fate) {
+  constexpr const char* words[] = {"the stone lies at", "the stone lies short of the hog line, at",
+                                   "the stone touched a sideline, at", "the stone went through, at",
+                                   "the stone was last seen at"};
+  return words[static_cast<std::size_t>(fate)];
+}
+
 std::string words_of(const servo::SkipReport& report) {
   for (const servo::StoneOutcome& stone : report.result.stones) {
-    if (stone.thrown) return fmt::format("the stone lies at {:.2f}, {:.2f} m", stone.x_m, stone.y_m);
+    if (stone.thrown) return fmt::format("{} {:.3f}, {:.3f} m", fate(stone.fate), stone.x_m, stone.y_m);
   }
   return report.reason.empty() ? "no stone came" : report.reason;
 }

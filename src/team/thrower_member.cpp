@@ -70,6 +70,7 @@ void ThrowerMember::know_commander(Stamp now) {
   if (std::exchange(commander_session_, session) == session || throwing()) return;
   order_serial_ = 0;  // its numbers begin anew
   refused_.clear();
+  last_refusal_.clear();
 }
 
 // Whoever called a stop takes it back, nobody else.
@@ -90,16 +91,20 @@ std::string ThrowerMember::called_stop() const {
 void ThrowerMember::take(const hw::ShotOrderMessage& order, Stamp now) {
   ++orders_;
   const auto verdict = gate_.judge(order, link_.local(order.origin.stamp, now), now);
-  refused_ = verdict.reason;
-  if (verdict.accepted) refused_ = throwing() ? "another order is being thrown" : not_ready();
-  if (refused_.empty()) return begin(order, now);
-  // Another's number is none that our commander waits for.
-  if (!throwing() && order.origin.session == commander_session_) order_serial_ = order.origin.serial;
+  last_refusal_ = verdict.reason;
+  if (verdict.accepted) last_refusal_ = throwing() ? "another order is being thrown" : not_ready();
+  if (last_refusal_.empty()) return begin(order, now);
   next_state_ = now;
+  // What becomes of our commander's own order is not overwritten by anybody else's, nor by one that comes too much.
+  const bool answers_commander = order.origin.robot == "skip" && order.origin.session == commander_session_;
+  if (throwing() || !answers_commander) return;
+  refused_ = last_refusal_;
+  order_serial_ = order.origin.serial;
 }
 
 void ThrowerMember::begin(const hw::ShotOrderMessage& order, Stamp now) {
   order_serial_ = order.origin.serial;
+  refused_.clear();
   seer_ = seers_();
   loop_ = std::make_unique<ThrowerLoop>(devices_, ThrowerEyes(*seer_, rig_.looks),
                                         servo::Thrower(rig_.thrower, order_of(order, rig_.thrower.release), now),
@@ -199,6 +204,7 @@ void ThrowerMember::tell(Stamp now) {
   state.order_serial = order_serial_;
   state.reason = refused_;
   if (refused_.empty() && loop_) state.reason = loop_->thrower().abort_reason().value_or("");
+  if (state.reason.empty()) state.reason = last_refusal_;
   const bool changed = state.phase != told_.phase || state.order_serial != told_.order_serial ||
                        state.armed != told_.armed || state.reason != told_.reason;
   if (!changed && now < next_state_) return;

@@ -35,7 +35,7 @@ class ThrowerMember {
   void load();
   bool throwing() const { return loop_ && !over_; }
   /// Why the last order was refused; empty when it was not.
-  const std::string& refused() const { return refused_; }
+  const std::string& refused() const { return last_refusal_; }
   /// How many orders came in, whatever became of them.
   long orders() const { return orders_; }
   /// Empty: an order would be thrown.
@@ -72,7 +72,8 @@ class ThrowerMember {
   bool loading_ = false;
   std::uint64_t order_serial_ = 0;
   std::uint64_t commander_session_ = 0;
-  std::string refused_;  ///< why the last order was
+  std::string refused_;       ///< why the commander's last order was, while nothing was thrown
+  std::string last_refusal_;  ///< why the last order was, of whomever and whenever
   long orders_ = 0;
   std::map<std::string, std::string> stops_;  ///< in force: by whom, and why
   hw::ThrowerStateMessage told_;

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <csignal>
 #include <thread>
 
@@ -17,19 +15,6 @@ using testing::HasSubstr;
 
 constexpr Duration patience = 60s;
 constexpr int throws = 4;
-
-std::string all_of(Member& member) {
-  std::string text;
-  for (const Told& t : member.told()) text += t.event + ": " + t.what + "\n";
-  return text;
-}
-
-// What a machine that is too slow for the rink's clock makes of a throw: it is given up, for this reason.
-bool is_lateness(const std::string& why) {
-  constexpr std::array<const char*, 6> words{": stale",          "control period: too long", "too old",
-                                             "no new set-point", "refreshes came too late",  "is silent"};
-  return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
-}
 
 // The rink runs by the wall clock: a busy machine may make a throw abort, safely. Then the next one is tried; a machine
 // that makes all of them abort for lateness has shown that the order is taken, and what it can not show.

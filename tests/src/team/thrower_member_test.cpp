@@ -68,10 +68,16 @@ TEST_F(ThrowerOnTheRink, a_strangers_order_is_refused_under_no_number_of_the_com
   pass(100ms, &skip);
   EXPECT_THAT(told.reason, HasSubstr("only 'skip' commands"));
   EXPECT_EQ(told.order_serial, 0U);
+  EXPECT_EQ(told.phase, hw::ThrowerPhase::idle);
   skip.send(order, now());
   pass(100ms, &skip);
   EXPECT_EQ(told.order_serial, 1U);
-  EXPECT_EQ(member.orders(), 2);
+  EXPECT_EQ(told.phase, hw::ThrowerPhase::stopped);
+  const std::string why = told.reason;
+  coach.send(order, now());
+  pass(100ms, &skip);
+  EXPECT_EQ(told.reason, why) << "the commander's answer stands";
+  EXPECT_EQ(member.orders(), 3);
 }
 
 }  // namespace
