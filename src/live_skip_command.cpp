@@ -18,8 +18,6 @@
 namespace hogline {
 namespace {
 
-constexpr int control_priority = 10;
-
 hw::link::LinkConfig link_of(const std::string& path) {
   const config::DeviceRig rig = config::load_device_rig(path);
   if (!rig.link) throw config::ConfigError(path, 0, "link", "", "missing; the skip orders its shots there");
@@ -66,13 +64,13 @@ int run_live_skip(const LiveSkipOptions& options) {
   const config::SkipRig rig = config::load_skip_rig(options.rig);
   const hw::SteadyClock clock;
   ServiceManager services;
+  const bool first = run_first(control_priority);  // the link's threads, too: control must not wait for one of them
   hw::link::DdsTeamLink link(link_config, clock.now(),
                              hw::TeamTime{std::chrono::system_clock::now().time_since_epoch()});
   SteelSkip robot(rig, clock);
   LiveSkip skip(
       rig, robot, link, clock, [&rig] { return std::make_unique<SkipVision>(rig); },
       [](const char* event, const std::string& what) { tell("skip", event, what); });
-  const bool first = run_first(control_priority);
   tell("skip", "session",
        fmt::format("{}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
   services.ready("waits for its operator");

@@ -63,8 +63,9 @@ void LiveSkip::step(Stamp now, Duration dt) {
   eyes_.note(robot_.head().state(), member_.loop() ? member_.skip().diagnosis() : servo::SkipDiagnosis{});
   watch();
   const std::string missing = member_.missing(now);
-  if (told_missing_ != missing) tell_(missing.empty() ? "heard" : "silent", missing.empty() ? "thrower" : missing);
-  told_missing_ = missing;
+  const bool there = missing.empty();
+  if (told_there_ != there) tell_(there ? "heard" : "silent", there ? "thrower" : missing);
+  told_there_ = there;
 }
 
 void LiveSkip::begin(Stamp now) {

@@ -42,7 +42,7 @@ class LiveSkip {
   std::uint32_t shots_ = 0;
   std::optional<servo::SkipState> told_state_;
   OrderPhase told_order_ = OrderPhase::none;
-  std::optional<std::string> told_missing_;
+  std::optional<bool> told_there_;
   std::optional<std::string> told_error_;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/live/process.hpp"
+
 namespace hogline {
 namespace {
 
@@ -97,7 +99,7 @@ LiveThrower::LiveThrower(const config::ThrowerRig& rig, const ThrowerDevices& d,
       drive_(d.drive),
       switch_(std::make_unique<ArmedSwitch>(d.operator_switch, rig.thrower.safety.operator_age)),
       seer_(std::make_unique<FreshSeer>(std::move(make_seer))),
-      looking_(*seer_, d.near_camera, d.low_camera, d.clock),
+      looking_(*seer_, d.near_camera, d.low_camera, d.clock, [] { run_first(look_priority); }),
       member_(std::make_unique<ThrowerMember>(
           without_look_times(rig),
           ThrowerDevices{d.drive, d.gripper, d.arm, d.gyro, looking_.near_camera(), looking_.low_camera(), *switch_,

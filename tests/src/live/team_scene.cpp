@@ -168,8 +168,15 @@ std::string all_of(Member& member) {
 }
 
 bool is_lateness(const std::string& why) {
-  constexpr std::array<const char*, 6> words{": stale",          "control period: too long", "too old",
-                                             "no new set-point", "refreshes came too late",  "is silent"};
+  constexpr std::array<const char*, 9> words{": stale",
+                                             "control period: too long",
+                                             "control loop did not run",
+                                             "too old",
+                                             "no new set-point",
+                                             "no feedback",
+                                             "no measurement arrives",
+                                             "refreshes came too late",
+                                             "is silent"};
   return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
 }
 
