@@ -12,6 +12,7 @@ namespace hogline {
 namespace {
 
 constexpr Duration arming_limit = std::chrono::seconds(15);  // two boots of the drives
+constexpr Duration same_refusal = std::chrono::seconds(1);
 constexpr Duration load_period = std::chrono::milliseconds(1500);
 
 }  // namespace
@@ -116,7 +117,7 @@ void LiveThrower::step(Stamp now, Duration dt) {
   member_->step(now, dt);
   if (phase_ == LivePhase::throwing || member_->throwing()) return watch_throw();
   watch_switch(now);
-  tell_refusals();
+  tell_refusals(now);
   tell_readiness();
   if (phase_ == LivePhase::arming) step_arming(now);
   if (phase_ != LivePhase::armed) return;
@@ -133,9 +134,14 @@ void LiveThrower::tell_readiness() {
   tell_(problem.empty() ? "ready" : "not ready", problem);
 }
 
-// One more order than are known of, and no throw: whoever stands beside the robot shall know why.
-void LiveThrower::tell_refusals() {
-  if (member_->orders() != known_orders_ && !member_->refused().empty()) tell_("order refused", member_->refused());
+// One more order than are known of, and no throw: whoever stands beside the robot shall know why; not fifty times a second.
+void LiveThrower::tell_refusals(Stamp now) {
+  const bool news = member_->refused() != told_refusal_ || now >= next_refusal_;
+  if (member_->orders() != known_orders_ && !member_->refused().empty() && news) {
+    told_refusal_ = member_->refused();
+    next_refusal_ = now + same_refusal;
+    tell_("order refused", told_refusal_);
+  }
   known_orders_ = member_->orders();
 }
 
