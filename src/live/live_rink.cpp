@@ -115,10 +115,10 @@ void LiveRink::exchange() {
   if (ran && !stone_runs_) log_.at_rest(sheet_->field().stones(), sheet_->thrown(), now());
 }
 
-bool LiveRink::put_back() {
+bool LiveRink::put_back(std::optional<int> team) {
   if (robot_moves(robot_.rink().truth())) return false;
   if (sheet_ && sheet_->stone_runs()) return false;
-  team_ = 1 - team_;
+  team_ = team.value_or(1 - team_);
   const hw::sim::RobotScenario& start = robot_.scenario().robot;
   if (sheet_) {
     sheet_->put_back(team_);

@@ -105,7 +105,7 @@ void SkipMember::send_order(Stamp now) {
   if (over_meanwhile || !link_.answered(now)) {
     ordered_ = OrderPhase::refused;
     const std::string missing = link_.missing(now);
-    why_ = over_meanwhile      ? "the skip: " + loop_->skip().report().reason
+    why_ = over_meanwhile    ? "the skip: " + loop_->skip().report().reason
            : missing.empty() ? "the thrower answers to another skip, or not yet to this one"
                              : missing;
     return;
@@ -125,7 +125,12 @@ void SkipMember::listen(Stamp now) {
   }
 }
 
+bool SkipMember::thrower_armed(Stamp now) const {
+  return thrower_ && thrower_->armed && thrower_->origin.session == link_.peer_session(now) && missing(now).empty();
+}
+
 void SkipMember::take(const hw::ThrowerStateMessage& state) {
+  thrower_ = state;
   using hw::ThrowerPhase;
   const bool open = ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing;
   if (!open || state.order_serial != orders_) return;

@@ -48,6 +48,9 @@ class SkipMember {
   /// Why no thrower is there to order from; empty while it is.
   std::string missing(Stamp now) const { return link_.missing(now); }
 
+  /// By its own word: its operator holds the switch.
+  bool thrower_armed(Stamp now) const;
+
   /// Precondition: has_looked(). `shot`: of the end, from 1; `team`: whose stone it is. A thrower that does not yet
   /// answer to us, because one of us was just started, is waited for; then the order is refused.
   void order(const servo::ShotOrder& order, std::uint32_t shot, Team team, Stamp now);
@@ -82,6 +85,7 @@ class SkipMember {
     Stamp since{};
   };
   std::optional<Held> held_;
+  std::optional<hw::ThrowerStateMessage> thrower_;  ///< as it told last
   OrderPhase ordered_ = OrderPhase::none;
   std::string why_;
   std::optional<hw::ReleaseMessage> release_;

@@ -34,7 +34,8 @@ void tell_once(const std::string& event, const std::string& what) {
 class Stranger {
  public:
   explicit Stranger(const LinkConfig& config)
-      : robot_(config.robot), link_(config, clock_.now(), TeamTime{std::chrono::system_clock::now().time_since_epoch()}) {}
+      : robot_(config.robot),
+        link_(config, clock_.now(), TeamTime{std::chrono::system_clock::now().time_since_epoch()}) {}
 
   void step() {
     const Stamp now = clock_.now();

@@ -48,6 +48,8 @@ std::vector<TrueStone> stones_of(const json& line) {
   return stones;
 }
 
+int strategist_port() { return 31000 + static_cast<int>(getpid()) % 10000; }
+
 Stamp stamp_of(double s) { return Stamp{from_seconds(s)}; }
 
 }  // namespace
@@ -96,7 +98,8 @@ void Member::start() {
   constexpr int appending = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
   const int output = open(output_.path().c_str(), appending, 0644);
   const int errors = open((output_.path() + ".err").c_str(), appending, 0644);
-  if (output < 0 || errors < 0 || pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), name_);
+  if (output < 0 || errors < 0 || pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), name_);
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
@@ -168,15 +171,9 @@ std::string all_of(Member& member) {
 }
 
 bool is_lateness(const std::string& why) {
-  constexpr std::array<const char*, 9> words{": stale",
-                                             "control period: too long",
-                                             "control loop did not run",
-                                             "too old",
-                                             "no new set-point",
-                                             "no feedback",
-                                             "no measurement arrives",
-                                             "refreshes came too late",
-                                             "is silent"};
+  constexpr std::array<const char*, 9> words{
+      ": stale",     "control period: too long", "control loop did not run", "too old",  "no new set-point",
+      "no feedback", "no measurement arrives",   "refreshes came too late",  "is silent"};
   return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
 }
 
@@ -191,14 +188,18 @@ TeamScene::TeamScene(const std::string& hogline, const SceneOptions& options)
       thrower_("thrower", {hogline, "thrower", "--rig", thrower_rig_}, folder_, options.thrower_environment),
       hand_("hand", {hogline, "hold", "--rig", thrower_rig_}, folder_),
       skip_("skip", skip_command(), folder_, options.skip_environment),
+      strategist_("strategist",
+                  {"python3", HOGLINE_SOURCE_DIR "/tests/peers/digital_curling_client.py",
+                   std::to_string(strategist_port()), "client", "late"},
+                  folder_),
       truth_file_(folder_ / "truth.jsonl") {
   if (options.secure) make_keys("keys");
 }
 
 void TeamScene::make_keys(const std::string& name) const {
-  Member keys(
-      "keys", {hogline_, "keys", "--out", folder_ / name, "--domain", std::to_string(domain_), "--observer", "coach"},
-      folder_);
+  Member keys("keys",
+              {hogline_, "keys", "--out", folder_ / name, "--domain", std::to_string(domain_), "--observer", "coach"},
+              folder_);
   keys.start();
   wait_until([&] { return !keys.running(); }, 20s);
   if (keys.status() != 0) throw std::runtime_error("no keys were made");
@@ -208,7 +209,8 @@ std::vector<std::string> TeamScene::rink_command() const {
   std::vector<std::string> command{hogline_, "rink", "--rig", thrower_rig_, "--truth", folder_ / "truth.jsonl"};
   for (const std::string& word : {std::string("--camera-hz"), std::to_string(camera_hz)}) command.push_back(word);
   if (!options_.whole_skip) return command;
-  for (const std::string& word : {std::string("--skip-rig"), skip_rig_, std::string("--skip-hz"), std::to_string(skip_hz)})
+  for (const std::string& word :
+       {std::string("--skip-rig"), skip_rig_, std::string("--skip-hz"), std::to_string(skip_hz)})
     command.push_back(word);
   return command;
 }
@@ -216,12 +218,18 @@ std::vector<std::string> TeamScene::rink_command() const {
 std::vector<std::string> TeamScene::skip_command() const {
   std::vector<std::string> command{hogline_, "order", "--rig", skip_rig_, "--stay"};
   if (options_.whole_skip) command = {hogline_, "skip", "--live", "--rig", skip_rig_};
+  if (options_.strategist) {
+    for (const std::string& word :
+         {std::string("--thrower-rig"), thrower_rig_, std::string("--team0"), "dc:" + std::to_string(strategist_port()),
+          std::string("--thinking"), std::string("15"), std::string("--out"), (folder_ / "game").string()})
+      command.push_back(word);
+  }
   command.insert(command.end(), options_.skip_arguments.begin(), options_.skip_arguments.end());
   return command;
 }
 
 TeamScene::~TeamScene() {
-  for (Member* member : {&hand_, &skip_, &thrower_, &rink_}) member->end();
+  for (Member* member : {&hand_, &strategist_, &skip_, &thrower_, &rink_}) member->end();
   std::error_code problem;
   fs::remove_all(folder_, problem);
 }
@@ -288,6 +296,7 @@ const std::vector<TrueMoment>& TeamScene::truth() {
 
 bool TeamScene::set_up() {
   hand_.end();
+  strategist_.end();
   skip_.end();
   rink_.start();
   if (!wait_until([this] { return rink_.running() && !truth().empty() && now() - truth_.back().at < 1s; }, 30s))
@@ -304,8 +313,40 @@ bool TeamScene::set_up() {
   };
   if (!wait_until(thrower_waits, 30s)) return false;
   const Stamp asked = now();
-  rink_.say("again");
+  rink_.say("again 0");
   return wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s);
+}
+
+bool TeamScene::skip_is_heard() {
+  skip_.start();
+  const auto heard = [&] {
+    std::string last;
+    for (const Told& t : skip_.told())
+      if (t.event == "session" || t.event == "heard" || t.event == "silent") last = t.event;
+    return last == "heard";
+  };
+  return wait_until(heard, 30s);
+}
+
+bool TeamScene::skip_waits() {
+  if (!skip_is_heard()) return false;
+  const Stamp begin = now();
+  skip_.say("begin");
+  const auto waits = [&] {
+    return std::ranges::any_of(skip_.told(),
+                               [&](const Told& t) { return t.at >= begin && t.event == "state" && t.what == "wait"; });
+  };
+  return wait_until([&] { return waits() || skip_.told_since(begin, "stopped"); }, 30s) && waits();
+}
+
+bool TeamScene::begin_game() {
+  if (!skip_is_heard()) return false;
+  strategist_.end();
+  const Stamp begin = now();
+  skip_.say("play");
+  if (!wait_until([&] { return skip_.told_since(begin, "table").has_value(); }, 30s)) return false;
+  strategist_.start();
+  return wait_until([&] { return skip_.told_since(begin, "asked").has_value(); }, 30s);
 }
 
 }  // namespace hogline::live_test

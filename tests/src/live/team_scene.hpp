@@ -58,8 +58,8 @@ class GrowingFile {
   std::string rest_;
 };
 
-/// A program of the team: its stdout and stderr go to files, its stdin is a pipe. It dies with whoever started it, however that
-/// ends.
+/// A program of the team: its stdout and stderr go to files, its stdin is a pipe. It dies with whoever started it,
+/// however that ends.
 class Member {
  public:
   Member(std::string name, std::vector<std::string> command, const std::filesystem::path& folder,
@@ -96,11 +96,14 @@ class Member {
 };
 
 struct SceneOptions {
-  bool secure = false;      ///< the robots have keys that `hogline keys` makes
-  bool whole_skip = false;  ///< the skip is `hogline skip --live`; else `hogline order`, which orders one shot and stays
+  bool secure = false;  ///< the robots have keys that `hogline keys` makes
+  bool whole_skip =
+      false;  ///< the skip is `hogline skip --live`; else `hogline order`, which orders one shot and stays
   std::vector<std::string> thrower_environment{};
   std::vector<std::string> skip_environment{};
   std::vector<std::string> skip_arguments{};
+  bool strategist =
+      false;  ///< a Digital Curling client decides for the first team, and thinks until it is told to move
 };
 
 /// All that it has told, a line each, for whoever wants to know why.
@@ -120,6 +123,7 @@ class TeamScene {
   Member& thrower() { return thrower_; }
   Member& hand() { return hand_; }
   Member& skip() { return skip_; }
+  Member& strategist() { return strategist_; }
   std::uint32_t domain() const { return domain_; }
   const std::string& skip_rig_file() const { return skip_rig_; }
   /// Keys of a team of this domain, in a folder of this name; also those of a coach.
@@ -132,8 +136,13 @@ class TeamScene {
   const std::vector<std::vector<TrueStone>>& rests() const { return rests_; }
   /// The robot stands in the hack with a stone, everybody is there, nobody holds the switch.
   bool set_up();
+  /// The skip that is one has looked, waits for a stone, and hears the thrower. False: it does not come to that.
+  bool skip_waits();
+  /// The skip plays, and the strategist sits at its table. False: it does not come to that.
+  bool begin_game();
 
  private:
+  bool skip_is_heard();
   std::string thrower_rig() const;
   std::string order_rig() const;
   std::string skip_rig() const;
@@ -153,6 +162,7 @@ class TeamScene {
   Member thrower_;
   Member hand_;
   Member skip_;
+  Member strategist_;
   GrowingFile truth_file_;
   std::vector<TrueMoment> truth_;
   std::vector<std::vector<TrueStone>> rests_;
