@@ -48,7 +48,9 @@ LiveRink::LiveRink(const config::ThrowerRig& rig, const std::optional<config::Sk
   add_view(rig.rig, "low", robot_.low_camera());
   buses_.emplace_back(rig.rig, robot_.rink().can(), now);
   if (skip) {
-    skip_.emplace(*skip, scenario, 1);
+    hw::sim::Scenario skip_scenario = scenario;
+    skip_scenario.near_camera.rate_hz = scenario.skip->far_camera.rate_hz;  // both of its cameras have one rate
+    skip_.emplace(*skip, skip_scenario, 1);
     sheet_.emplace(robot_.rink(), skip_->rink(), scenario.robot, scenario.seed);
     add_view(skip->rig, "near", skip_->near_camera());
     add_view(skip->rig, "far", skip_->far_camera());
