@@ -134,7 +134,8 @@ void LiveThrower::tell_readiness() {
   tell_(problem.empty() ? "ready" : "not ready", problem);
 }
 
-// One more order than are known of, and no throw: whoever stands beside the robot shall know why; not fifty times a second.
+// One more order than are known of, and no throw: whoever stands beside the robot shall know why; not fifty times a
+// second.
 void LiveThrower::tell_refusals(Stamp now) {
   const bool news = member_->refused() != told_refusal_ || now >= next_refusal_;
   if (member_->orders() != known_orders_ && !member_->refused().empty() && news) {

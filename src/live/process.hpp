@@ -18,8 +18,9 @@ void tell(std::string_view who, std::string_view event, std::string_view what);
 void listen_for_the_end();
 bool asked_to_end();
 
-/// Who runs before whom in a robot's program, highest first: control waits for the answers of the Modbus devices' threads,
-/// and must never wait for a look. A look that other programs hold up would come too late, and hold locks meanwhile.
+/// Who runs before whom in a robot's program, highest first: control waits for the answers of the Modbus devices'
+/// threads, and must never wait for a look. A look that other programs hold up would come too late, and hold locks
+/// meanwhile.
 inline constexpr int device_priority = 15;
 inline constexpr int control_priority = 10;
 inline constexpr int look_priority = 5;

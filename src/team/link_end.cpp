@@ -5,7 +5,10 @@
 namespace hogline {
 
 LinkEnd::LinkEnd(hw::TeamLink& link, const std::string& self, const std::string& peer)
-    : link_(link), self_(self), peer_(peer), watch_({.self = self, .peers = {peer}, .silent_after = hw::link::heartbeat_deadline}) {}
+    : link_(link),
+      self_(self),
+      peer_(peer),
+      watch_({.self = self, .peers = {peer}, .silent_after = hw::link::heartbeat_deadline}) {}
 
 void LinkEnd::step(Stamp now) {
   if (now < next_heartbeat_) return;

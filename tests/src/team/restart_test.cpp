@@ -1,5 +1,5 @@
-// Two ends of the link of which one is started anew: what is ordered is thrown once, or refused with a reason; nothing is
-// lost because it came too early.
+// Two ends of the link of which one is started anew: what is ordered is thrown once, or refused with a reason; nothing
+// is lost because it came too early.
 #include <gtest/gtest.h>
 
 #include "hw/link/link_config.hpp"
