@@ -86,8 +86,9 @@ GameTable::GameTable(const TableOptions& options, double sheet_width_m, const se
       record_(opened(std::filesystem::path(out_) / "game.dcl2")),
       log_(record_, date_time),
       journal_(
-          [this](const std::string& line) {
+          [this, print = options.print](const std::string& line) {
             lines_ << line << '\n' << std::flush;
+            if (!print) return;
             fmt::print("{}\n", line);
             std::fflush(stdout);
           },

@@ -23,6 +23,7 @@ struct TableOptions {
   double extra_thinking_s = 270.0;  ///< each team's for each extra end
   double connect_s = 300.0;         ///< how long clients are waited for
   std::string out = "out/game";
+  bool print = true;  ///< each event also on stdout
 };
 
 /// Empty when `text` names a strategist, else what is allowed: a check for the command line.
@@ -39,7 +40,7 @@ class GameTable {
 
   const servo::GameSetting& setting() const { return offer_.setting; }
   std::array<hw::Strategist*, servo::team_count> strategists();
-  /// Writes OUT/game.jsonl and OUT/game.dcl2, and each event on stdout.
+  /// Writes OUT/game.jsonl and OUT/game.dcl2, and each event on stdout where that is wanted.
   game::GameListener& journal() { return journal_; }
 
   /// Steps the referee until it stops, the game is over, or `enough` says so. Clients are given time to answer.

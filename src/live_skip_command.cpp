@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -12,13 +15,14 @@
 #include "src/exit_status.hpp"
 #include "src/live/input_lines.hpp"
 #include "src/live/live_skip.hpp"
+#include "src/live/loop_calls.hpp"
 #include "src/live/process.hpp"
+#include "src/live_game.hpp"
 #include "src/skip/skip_vision.hpp"
+#include "src/team/robots_throw.hpp"
 
 namespace hogline {
 namespace {
-
-constexpr int control_priority = 10;
 
 hw::link::LinkConfig link_of(const std::string& path) {
   const config::DeviceRig rig = config::load_device_rig(path);
@@ -30,32 +34,70 @@ hw::link::LinkConfig link_of(const std::string& path) {
   return *rig.link;
 }
 
-// "order 2.1 0.5 -1.5"
-std::string order(const std::string& line, LiveSkip& skip, Stamp now) {
-  std::istringstream words(line);
-  std::string verb;
-  servo::ShotOrder shot;
-  double heading_deg = 0.0;
-  double spin_radps = 0.0;
-  if (!(words >> verb >> shot.speed_mps >> heading_deg >> spin_radps)) return "order SPEED_MPS HEADING_DEG SPIN_RADPS";
-  shot.heading_rad = heading_deg * std::numbers::pi / 180.0;
-  shot.curl = spin_radps < 0.0 ? servo::Curl::clockwise : servo::Curl::counter_clockwise;
-  shot.spin_radps = std::abs(spin_radps);
-  return skip.order(shot, now);
-}
+/// What the operator says, and what becomes of it.
+class Operator {
+ public:
+  Operator(LiveSkip& skip, LiveGame* game) : skip_(skip), game_(game) {}
 
-void obey(const std::string& line, LiveSkip& skip, Stamp now, bool& quit) {
-  std::string refusal;
-  if (line == "begin") {
-    skip.begin(now);
-  } else if (line.starts_with("order")) {
-    refusal = order(line, skip, now);
-  } else if (line == "quit") {
-    quit = true;
-  } else {
-    refusal = "'" + line + "': there are begin, order, quit";
+  /// Empty: it is done, or on its way.
+  std::string obey(const std::string& line, Stamp now) {
+    const bool playing = game_ != nullptr && game_->playing();
+    if (line == "quit") return quit_ = true, "";
+    if (line == "play") return game_ == nullptr ? "no game: --thrower-rig says what the thrower can" : game_->play();
+    if (line == "stop" && playing) return game_->stop(), "";
+    if (line == "stop") return "no game is played";
+    if (playing) return "a game is played: stop ends it";
+    if (line == "begin") return skip_.begin(now), "";
+    if (line.starts_with("order")) return order(line, now);
+    return "'" + line + "': there are begin, order, play, stop, quit";
   }
-  if (!refusal.empty()) tell("skip", "refused", refusal);
+  bool wants_to_quit() const { return quit_; }
+
+ private:
+  // "order 2.1 0.5 -1.5"
+  std::string order(const std::string& line, Stamp now) {
+    std::istringstream words(line);
+    std::string verb;
+    servo::ShotOrder shot;
+    double heading_deg = 0.0;
+    double spin_radps = 0.0;
+    if (!(words >> verb >> shot.speed_mps >> heading_deg >> spin_radps)) {
+      return "order SPEED_MPS HEADING_DEG SPIN_RADPS";
+    }
+    shot.heading_rad = heading_deg * std::numbers::pi / 180.0;
+    shot.curl = spin_radps < 0.0 ? servo::Curl::clockwise : servo::Curl::counter_clockwise;
+    shot.spin_radps = std::abs(spin_radps);
+    return skip_.order(shot, ++shots_, Team::unknown, now);
+  }
+
+  LiveSkip& skip_;
+  LiveGame* game_;
+  std::uint32_t shots_ = 0;
+  bool quit_ = false;
+};
+
+void tell_skip(const char* event, const std::string& what) { tell("skip", event, what); }
+
+/// The loop itself: skip, its operator's words, and what the game's thread asks.
+void run_control(LiveSkip& skip, LiveGame* game, LoopCalls& calls, Duration period, ServiceManager& services) {
+  const hw::SteadyClock clock;
+  InputLines input;
+  Operator person(skip, game);
+  Stamp last = clock.now();
+  for (Stamp due = last + period; !person.wants_to_quit() && !asked_to_end(); due += period) {
+    std::this_thread::sleep_until(due);
+    const Stamp now = clock.now();
+    skip.step(now, now - last);
+    services.alive(now);
+    last = now;
+    due = std::max(due, now - period);  // what is lost is lost
+    calls.serve();
+    if (game != nullptr) game->news(tell_skip);
+    const auto line = input.line();
+    const std::string refusal = line ? person.obey(*line, now) : std::string();
+    if (!refusal.empty()) tell("skip", "refused", refusal);
+  }
+  calls.close();
 }
 
 }  // namespace
@@ -66,29 +108,22 @@ int run_live_skip(const LiveSkipOptions& options) {
   const config::SkipRig rig = config::load_skip_rig(options.rig);
   const hw::SteadyClock clock;
   ServiceManager services;
+  const bool first = run_first(control_priority);  // the link's threads, too: control must not wait for one of them
   hw::link::DdsTeamLink link(link_config, clock.now(),
                              hw::TeamTime{std::chrono::system_clock::now().time_since_epoch()});
   SteelSkip robot(rig, clock);
   LiveSkip skip(
-      rig, robot, link, clock, [&rig] { return std::make_unique<SkipVision>(rig); },
-      [](const char* event, const std::string& what) { tell("skip", event, what); });
-  const bool first = run_first(control_priority);
+      rig, robot, link, clock, [&rig] { return std::make_unique<SkipVision>(rig); }, tell_skip);
+  LoopCalls calls;
+  std::optional<LiveGame> game;
+  if (!options.thrower_rig.empty()) {
+    const servo::ThrowerSkill skill = skill_of(config::load_thrower_rig(options.thrower_rig));
+    game.emplace(options.table, rig.rig.near_camera->sheet.width_m, skill, skip, calls);
+  }
   tell("skip", "session",
        fmt::format("{}, {}", link.state().session, first ? "runs first" : "runs as other programs do"));
   services.ready("waits for its operator");
-  InputLines input;
-  const Duration period = rig.head.timing.control_period;
-  Stamp last = clock.now();
-  bool quit = false;
-  for (Stamp due = last + period; !quit && !asked_to_end(); due += period) {
-    std::this_thread::sleep_until(due);
-    const Stamp now = clock.now();
-    skip.step(now, now - last);
-    services.alive(now);
-    last = now;
-    due = std::max(due, now - period);  // what is lost is lost
-    if (const auto line = input.line()) obey(*line, skip, now, quit);
-  }
+  run_control(skip, game ? &*game : nullptr, calls, rig.head.timing.control_period, services);
   robot.head().stop();
   robot.head().step(clock.now());
   services.stopping();

@@ -20,7 +20,6 @@ using namespace std::chrono_literals;
 
 constexpr Duration throw_limit = 120s;
 constexpr Duration answer_limit = 3s;
-constexpr Duration alone_for = 1500ms;  // a skip that was here before must have been silent for a second
 
 const char* word(hw::ThrowerPhase phase) {
   constexpr const char* words[] = {"idle", "aligning", "running", "released", "stopped", "fault"};
@@ -46,9 +45,8 @@ class Commander {
     while (const auto received = end_.receive(now)) hear(received->message);
     watch_peer(now);
     if (finished_) return options_.stay;
-    if (!ordered_at_ && now > start_ + alone_for && state_ && state_->armed && there_ && link_.matched_readers(0) > 0 &&
-        end_.local(state_->origin.stamp, now))
-      order(now);
+    const bool armed = state_ && state_->armed && state_->origin.session == end_.peer_session(now);
+    if (!ordered_at_ && armed && link_.matched_readers(0) > 0 && end_.answered(now)) order(now);
     const Stamp end = ordered_at_ ? *ordered_at_ + throw_limit : start_ + from_seconds(options_.wait_s);
     if (now > end) finish(ordered_at_ ? "the thrower does not come to an end" : "the thrower was not armed in time");
     const bool taken = state_ && state_->order_serial == serial_;

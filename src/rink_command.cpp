@@ -19,13 +19,13 @@ constexpr int rink_priority = 20;
 Stamp present() { return std::chrono::steady_clock::now(); }
 
 void obey(const std::string& line, LiveRink& rink, bool& quit) {
-  if (line == "again") {
-    const bool done = rink.put_back();
+  if (line == "again" || line == "again 0" || line == "again 1") {
+    const bool done = rink.put_back(line == "again" ? std::nullopt : std::optional(line == "again 0" ? 0 : 1));
     tell("rink", done ? "again" : "refused", done ? "the robot stands in the hack" : "the robot or a stone moves");
   } else if (line == "quit") {
     quit = true;
   } else {
-    tell("rink", "refused", "'" + line + "': there are again, quit");
+    tell("rink", "refused", "'" + line + "': there are again, again 0, again 1, quit");
   }
 }
 

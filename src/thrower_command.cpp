@@ -18,8 +18,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int device_priority = 15;  // control waits for the Modbus devices' answers
-constexpr int control_priority = 10;
 constexpr Duration longest_end = 15s;
 constexpr Duration say_period = 50ms;
 constexpr Duration free_first = 500ms;
@@ -68,6 +66,7 @@ int run_thrower(const ThrowerOptions& options) {
   check(rig);
   const hw::SteadyClock clock;
   ServiceManager services;
+  run_first(control_priority);  // the link's threads, too: control must not wait for one that others hold up
   hw::link::DdsTeamLink link(*rig.link, clock.now(), hw::TeamTime{std::chrono::system_clock::now().time_since_epoch()});
   hw::LocalSwitch operator_switch(rig.operator_socket);
   run_first(device_priority);

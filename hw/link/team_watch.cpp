@@ -21,6 +21,10 @@ void TeamWatch::heard(const HeartbeatMessage& heartbeat, Stamp received, TeamTim
   Peer& peer = found->second;
   if (from.session < peer.session) return;
   if (from.session > peer.session) {
+    if (peer.session != 0 && received - peer.received <= config_.silent_after) {
+      ++rivals_;
+      return;
+    }
     peer = Peer{.session = from.session,
                 .serial = from.serial - 1,
                 .received = {},

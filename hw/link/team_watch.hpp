@@ -36,7 +36,8 @@ class TeamWatch {
  public:
   explicit TeamWatch(TeamWatchConfig config);
 
-  /// Heartbeats of robots that are not of the team are counted and otherwise ignored; so are those out of order.
+  /// Heartbeats of robots that are not of the team are counted and otherwise ignored; so are those out of order, and
+  /// those of a later start as long as the one before is not silent: two of one name are not mistaken for one.
   /// `received` and `received_team` are the same moment. `session`: our own, whose echoes count.
   void heard(const HeartbeatMessage& heartbeat, Stamp received, TeamTime received_team, std::uint64_t session);
 
@@ -47,6 +48,8 @@ class TeamWatch {
   /// What to put into our next heartbeat.
   std::vector<Echo> echoes() const;
   long strangers() const { return strangers_; }
+  /// Heartbeats of a second start while the first was there.
+  long rivals() const { return rivals_; }
 
  private:
   struct Peer {
@@ -62,6 +65,7 @@ class TeamWatch {
   TeamWatchConfig config_;
   std::map<std::string, Peer> peers_;
   long strangers_ = 0;
+  long rivals_ = 0;
 };
 
 }  // namespace hogline::hw::link

@@ -11,6 +11,33 @@
 
 namespace hogline::cli {
 
+namespace {
+
+void add_live_game(CLI::App* skip, CLI::Option* live, TableOptions& table, std::string& thrower_rig) {
+  auto* thrower = skip->add_option("--thrower-rig", thrower_rig,
+                                   "with --live: the thrower's rig file (YAML), by which a game's shots are ordered");
+  thrower->needs(live);
+  const auto seat = [&](const char* name, std::string& strategist, const char* words) {
+    skip->add_option(name, strategist, words)->capture_default_str()->check(known_strategist)->needs(thrower);
+  };
+  seat("--team0", table.first, "of the game that `play` plays: who decides for the first team: built-in, or dc:PORT");
+  seat("--team1", table.second, "the same for the second team, which has the first end's hammer");
+  skip->add_option("--ends", table.ends, "how many it has")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 20))
+      ->needs(thrower);
+  skip->add_option("--thinking", table.thinking_s, "each team's time for the whole game, s")
+      ->capture_default_str()
+      ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"))
+      ->needs(thrower);
+  skip->add_option("--connect", table.connect_s, "how long clients are waited for, s")
+      ->capture_default_str()
+      ->check(CLI::Validator(between(1.0, 86400.0), "1.0 to 86400.0"))
+      ->needs(thrower);
+}
+
+}  // namespace
+
 void add_skip(CLI::App& app, Chosen& chosen) {
   const auto kept = std::make_shared<SkipOptions>();
   SkipOptions& options = *kept;
@@ -44,9 +71,12 @@ void add_skip(CLI::App& app, Chosen& chosen) {
   auto* stays = skip->add_flag("--live", *live, "no simulation: stay, and be the skip whose devices the rig names");
   stays->needs(rig);
   for (const char* simulated : {"--scenario", "--throw", "--seed", "--number", "--oracle", "--unannounced", "--far-hz",
-                                "--near-hz", "--ice", "--out", "--record", "--json"}) {
+                                "--near-hz", "--ice", "--record", "--json"}) {
     stays->excludes(skip->get_option(simulated));
   }
+  const auto table = std::make_shared<TableOptions>();
+  const auto thrower_rig = std::make_shared<std::string>();
+  add_live_game(skip, stays, *table, *thrower_rig);
   skip->footer(
       "Examples:\n"
       "  hogline skip --throw double --seed 7 --oracle --out out/skip\n"
@@ -54,12 +84,17 @@ void add_skip(CLI::App& app, Chosen& chosen) {
       "  hogline skip --live --rig config/rigs/skip_live.yaml\n"
       "It simulates: whatever devices the rig names, none of them is opened, and nothing real moves. With --live it "
       "is\n"
-      "the robot's own program: THE HEAD MOVES when `begin` is said on its stdin (doc/programs.md).\n"
+      "the robot's own program: THE HEAD MOVES when `begin` is said on its stdin, BOTH ROBOTS when `play` is "
+      "(doc/programs.md).\n"
       "doc/skip.md says what the JSON object holds.\n"
       "Exit status: 0 the throw was followed to its end, 1 it was not (the reason says why), 2 wrong use or\n"
       "configuration, 3 something outside failed (a disk).");
-  skip->callback([kept, live, &chosen] {
-    chosen = [kept, live] { return *live ? run_live_skip({kept->rig}) : run_skip(*kept); };
+  skip->callback([kept, live, table, thrower_rig, &chosen] {
+    chosen = [kept, live, table, thrower_rig] {
+      table->out = kept->out;
+      table->print = false;
+      return *live ? run_live_skip({kept->rig, *thrower_rig, *table}) : run_skip(*kept);
+    };
   });
 }
 

@@ -48,7 +48,9 @@ LiveRink::LiveRink(const config::ThrowerRig& rig, const std::optional<config::Sk
   add_view(rig.rig, "low", robot_.low_camera());
   buses_.emplace_back(rig.rig, robot_.rink().can(), now);
   if (skip) {
-    skip_.emplace(*skip, scenario, 1);
+    hw::sim::Scenario skip_scenario = scenario;
+    skip_scenario.near_camera.rate_hz = scenario.skip->far_camera.rate_hz;  // both of its cameras have one rate
+    skip_.emplace(*skip, skip_scenario, 1);
     sheet_.emplace(robot_.rink(), skip_->rink(), scenario.robot, scenario.seed);
     add_view(skip->rig, "near", skip_->near_camera());
     add_view(skip->rig, "far", skip_->far_camera());
@@ -110,12 +112,15 @@ void LiveRink::exchange() {
   sheet_ ? sheet_->step(world_step) : robot_.rink().step(world_step);
   for (BusEnd& bus : buses_) bus.answer();
   log_.sample(robot_.rink().truth(), now());
+  const bool ran = stone_runs_;
+  stone_runs_ = sheet_ && sheet_->stone_runs();
+  if (ran && !stone_runs_) log_.at_rest(sheet_->field().stones(), sheet_->thrown(), now());
 }
 
-bool LiveRink::put_back() {
+bool LiveRink::put_back(std::optional<int> team) {
   if (robot_moves(robot_.rink().truth())) return false;
   if (sheet_ && sheet_->stone_runs()) return false;
-  team_ = 1 - team_;
+  team_ = team.value_or(1 - team_);
   const hw::sim::RobotScenario& start = robot_.scenario().robot;
   if (sheet_) {
     sheet_->put_back(team_);

@@ -39,7 +39,8 @@ class LiveRink {
   Stamp now() const { return robot_.rink().now() + ahead_; }
   /// A person carries the robot back to the hack and lays the next stone before it, between jaws that are open. False,
   /// and nothing happens, while the robot or a stone moves.
-  bool put_back();
+  /// `team`: whose; without it the other team's than the last.
+  bool put_back(std::optional<int> team = std::nullopt);
 
  private:
   /// A camera of the rink and where its pictures go.
@@ -68,8 +69,9 @@ class LiveRink {
   SimulatedRobot robot_;  ///< its devices; the adapters beside them are never stepped
   std::optional<SimulatedSkip> skip_;
   std::optional<hw::sim::TeamRink> sheet_;  ///< both robots' ends of it
-  int team_ = 0;                            ///< whose stone is next
-  Duration ahead_;                          ///< the steady clock's, of the rink's
+  bool stone_runs_ = false;
+  int team_ = 0;    ///< whose stone is next
+  Duration ahead_;  ///< the steady clock's, of the rink's
   std::deque<BusEnd> buses_;
   PtyLine gyro_line_;
   TruthLog& log_;

@@ -31,9 +31,16 @@ const char* word(OrderPhase phase) {
   return words[static_cast<std::size_t>(phase)];
 }
 
+const char* fate(servo::StoneFate fate) {
+  constexpr const char* words[] = {"the stone lies at", "the stone lies short of the hog line, at",
+                                   "the stone touched a sideline, at", "the stone went through, at",
+                                   "the stone was last seen at"};
+  return words[static_cast<std::size_t>(fate)];
+}
+
 std::string words_of(const servo::SkipReport& report) {
   for (const servo::StoneOutcome& stone : report.result.stones) {
-    if (stone.thrown) return fmt::format("the stone lies at {:.2f}, {:.2f} m", stone.x_m, stone.y_m);
+    if (stone.thrown) return fmt::format("{} {:.3f}, {:.3f} m", fate(stone.fate), stone.x_m, stone.y_m);
   }
   return report.reason.empty() ? "no stone came" : report.reason;
 }
@@ -56,21 +63,41 @@ void LiveSkip::step(Stamp now, Duration dt) {
   eyes_.note(robot_.head().state(), member_.loop() ? member_.skip().diagnosis() : servo::SkipDiagnosis{});
   watch();
   const std::string missing = member_.missing(now);
-  if (told_missing_ != missing) tell_(missing.empty() ? "heard" : "silent", missing.empty() ? "thrower" : missing);
-  told_missing_ = missing;
+  const bool there = missing.empty();
+  if (told_there_ != there) tell_(there ? "heard" : "silent", there ? "thrower" : missing);
+  told_there_ = there;
 }
 
-void LiveSkip::begin(Stamp now) {
+void LiveSkip::begin(Stamp now) { begin(ice_, now); }
+
+void LiveSkip::begin(const servo::IceEstimate& ice, Stamp now) {
   told_state_.reset();
   told_order_ = OrderPhase::none;
-  member_.begin(ice_, now);
+  member_.begin(ice, now);
 }
 
-std::string LiveSkip::order(const servo::ShotOrder& shot, Stamp now) {
+SkipView LiveSkip::view(Stamp now) const {
+  SkipView view{.waits = member_.waits(),
+                .has_looked = member_.has_looked(),
+                .over = member_.over(),
+                .thrower_armed = member_.thrower_armed(now),
+                .ordered = member_.ordered(),
+                .why = member_.why(),
+                .standing = {},
+                .sheet_width_m = {},
+                .report = {}};
+  if (!member_.loop()) return view;
+  view.standing = member_.skip().diagnosis().standing;
+  view.sheet_width_m = member_.skip().diagnosis().sheet_width_m;
+  if (view.over) view.report = member_.skip().report();
+  return view;
+}
+
+std::string LiveSkip::order(const servo::ShotOrder& shot, std::uint32_t number, Team team, Stamp now) {
   if (!member_.waits()) return "the skip has not looked, or is not ready for a stone: begin";
   if (const std::string missing = member_.missing(now); !missing.empty()) return missing;
   if (member_.ordered() != OrderPhase::none && member_.ordered() != OrderPhase::refused) return "a shot is under way";
-  member_.order(shot, ++shots_, Team::unknown, now);
+  member_.order(shot, number, team, now);
   return {};
 }
 

@@ -13,6 +13,19 @@
 
 namespace hogline {
 
+/// What there is to know of a skip at a moment.
+struct SkipView {
+  bool waits = false;       ///< for a stone
+  bool has_looked = false;  ///< at the house
+  bool over = false;        ///< report is there
+  bool thrower_armed = false;
+  OrderPhase ordered = OrderPhase::none;
+  std::string why;  ///< when refused
+  std::vector<StoneSighting> standing;
+  std::optional<double> sheet_width_m;
+  servo::SkipReport report;
+};
+
 /// Used by one thread. Nothing of the head moves before begin(), nor after a fault before the next one.
 class LiveSkip {
  public:
@@ -26,9 +39,12 @@ class LiveSkip {
   /// One control period.
   void step(Stamp now, Duration dt);
   /// Clears latched errors, looks at the house and waits for a stone. Whatever was under way ends.
+  /// `ice`: in s; without it what is known of any ice.
   void begin(Stamp now);
-  /// Why not, where it can not be ordered now; empty: it is on its way.
-  std::string order(const servo::ShotOrder& shot, Stamp now);
+  void begin(const servo::IceEstimate& ice, Stamp now);
+  /// Why not, where it can not be ordered now; empty: it is on its way. `number`: of the end's shots, from 1.
+  std::string order(const servo::ShotOrder& shot, std::uint32_t number, Team team, Stamp now);
+  SkipView view(Stamp now) const;
 
  private:
   void watch();
@@ -39,10 +55,9 @@ class LiveSkip {
   SkipEyesThread eyes_;
   SkipMember member_;
   servo::IceEstimate ice_;
-  std::uint32_t shots_ = 0;
   std::optional<servo::SkipState> told_state_;
   OrderPhase told_order_ = OrderPhase::none;
-  std::optional<std::string> told_missing_;
+  std::optional<bool> told_there_;
   std::optional<std::string> told_error_;
 };
 

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "src/live/process.hpp"
+
 namespace hogline {
 namespace {
 
 constexpr Duration arming_limit = std::chrono::seconds(15);  // two boots of the drives
+constexpr Duration same_refusal = std::chrono::seconds(1);
 constexpr Duration load_period = std::chrono::milliseconds(1500);
 
 }  // namespace
@@ -97,7 +100,7 @@ LiveThrower::LiveThrower(const config::ThrowerRig& rig, const ThrowerDevices& d,
       drive_(d.drive),
       switch_(std::make_unique<ArmedSwitch>(d.operator_switch, rig.thrower.safety.operator_age)),
       seer_(std::make_unique<FreshSeer>(std::move(make_seer))),
-      looking_(*seer_, d.near_camera, d.low_camera, d.clock),
+      looking_(*seer_, d.near_camera, d.low_camera, d.clock, [] { run_first(look_priority); }),
       member_(std::make_unique<ThrowerMember>(
           without_look_times(rig),
           ThrowerDevices{d.drive, d.gripper, d.arm, d.gyro, looking_.near_camera(), looking_.low_camera(), *switch_,
@@ -114,7 +117,7 @@ void LiveThrower::step(Stamp now, Duration dt) {
   member_->step(now, dt);
   if (phase_ == LivePhase::throwing || member_->throwing()) return watch_throw();
   watch_switch(now);
-  tell_refusals();
+  tell_refusals(now);
   tell_readiness();
   if (phase_ == LivePhase::arming) step_arming(now);
   if (phase_ != LivePhase::armed) return;
@@ -131,9 +134,15 @@ void LiveThrower::tell_readiness() {
   tell_(problem.empty() ? "ready" : "not ready", problem);
 }
 
-// One more order than are known of, and no throw: whoever stands beside the robot shall know why.
-void LiveThrower::tell_refusals() {
-  if (member_->orders() != known_orders_ && !member_->refused().empty()) tell_("order refused", member_->refused());
+// One more order than are known of, and no throw: whoever stands beside the robot shall know why; not fifty times a
+// second.
+void LiveThrower::tell_refusals(Stamp now) {
+  const bool news = member_->refused() != told_refusal_ || now >= next_refusal_;
+  if (member_->orders() != known_orders_ && !member_->refused().empty() && news) {
+    told_refusal_ = member_->refused();
+    next_refusal_ = now + same_refusal;
+    tell_("order refused", told_refusal_);
+  }
   known_orders_ = member_->orders();
 }
 

@@ -53,7 +53,7 @@ class LiveThrower {
   void watch_switch(Stamp now);
   void step_arming(Stamp now);
   void tell_readiness();
-  void tell_refusals();
+  void tell_refusals(Stamp now);
   std::string not_ready(Stamp now) const;
   void enter(LivePhase phase, const std::string& why);
 
@@ -75,6 +75,8 @@ class LiveThrower {
   bool told_release_ = false;
   std::string told_problem_ = "not asked yet";
   long known_orders_ = 0;
+  std::string told_refusal_;
+  Stamp next_refusal_{};
 };
 
 }  // namespace hogline

@@ -66,7 +66,7 @@ ServiceManager::ServiceManager() : path_(variable("NOTIFY_SOCKET")) {
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const long watchdog_us = std::atol(variable("WATCHDOG_USEC").c_str());
   const std::string meant_for = variable("WATCHDOG_PID");
-  if (meant_for.empty() || meant_for == std::to_string(getpid())) period_ = std::chrono::microseconds(watchdog_us / 2);
+  if (meant_for.empty() || meant_for == std::to_string(getpid())) period_ = std::chrono::microseconds(watchdog_us / 3);
 }
 
 ServiceManager::~ServiceManager() {

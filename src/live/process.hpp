@@ -18,6 +18,13 @@ void tell(std::string_view who, std::string_view event, std::string_view what);
 void listen_for_the_end();
 bool asked_to_end();
 
+/// Who runs before whom in a robot's program, highest first: control waits for the answers of the Modbus devices'
+/// threads, and must never wait for a look. A look that other programs hold up would come too late, and hold locks
+/// meanwhile.
+inline constexpr int device_priority = 15;
+inline constexpr int control_priority = 10;
+inline constexpr int look_priority = 5;
+
 /// Asks to run before other programs (SCHED_FIFO). Refused without the right to (ulimit -r, CAP_SYS_NICE): then it runs
 /// as others do.
 bool run_first(int priority);
@@ -33,7 +40,7 @@ class ServiceManager {
   ServiceManager& operator=(const ServiceManager&) = delete;
 
   void ready(const std::string& status);
-  /// Every control period: tells twice within the watchdog's time that the loop runs.
+  /// Every control period: tells three times within the watchdog's time that the loop runs.
   void alive(Stamp now);
   void stopping();
 

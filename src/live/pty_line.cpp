@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -62,7 +63,9 @@ PtyLine::~PtyLine() {
   ::close(descriptor_);
 }
 
+// As SerialPort has it: to read a terminal that has nothing takes its time.
 std::string PtyLine::read() const {
+  if (int there = 0; ioctl(descriptor_, FIONREAD, &there) == 0 && there == 0) return {};
   std::array<char, 256> bytes{};
   const auto got = ::read(descriptor_, bytes.data(), bytes.size());
   return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/live/process.hpp"
+
 namespace hogline {
 namespace {
 
@@ -73,6 +75,7 @@ std::optional<servo::HeadAngles> SkipEyesThread::angles_at(Stamp stamp) const {
 }
 
 void SkipEyesThread::run(const std::stop_token& stop) {
+  run_first(look_priority);
   while (!stop.stop_requested()) {
     const bool far = look_far();
     const bool near = look_near();

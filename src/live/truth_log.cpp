@@ -65,4 +65,17 @@ void TruthLog::sample(const hw::sim::Truth& truth, Stamp now) {
                   std::hypot(truth.stone.vx_mps, truth.stone.vy_mps), truth.arm_unfolded));
 }
 
+void TruthLog::at_rest(const std::vector<hw::sim::FieldStone>& stones, std::optional<std::size_t> thrown, Stamp now) {
+  if (file_.descriptor < 0) return;
+  std::string line = fmt::format("{{\"rest_ns\": {}, \"stones\": [", now.time_since_epoch().count());
+  const char* comma = "";
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    if (stones[i].taken_off) continue;
+    line += fmt::format("{}{{\"x_m\": {:.4f}, \"y_m\": {:.4f}, \"team\": {}, \"thrown\": {}}}", comma,
+                        stones[i].motion.x_m, stones[i].motion.y_m, stones[i].team, thrown == i);
+    comma = ", ";
+  }
+  lines_.post(line + "]}\n");
+}
+
 }  // namespace hogline

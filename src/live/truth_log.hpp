@@ -2,8 +2,11 @@
 // not say of themselves.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "hw/sim/stone_field.hpp"
 #include "hw/sim/truth.hpp"
 #include "src/live/line_writer.hpp"
 
@@ -23,6 +26,9 @@ class TruthLog {
   void start(Stamp now);
   /// `now`: the truth's moment, in the steady clock.
   void sample(const hw::sim::Truth& truth, Stamp now);
+  /// Every stone has come to rest: where those on the sheet lie, the thrown one by its number among them (e of the
+  /// skip).
+  void at_rest(const std::vector<hw::sim::FieldStone>& stones, std::optional<std::size_t> thrown, Stamp now);
 
  private:
   struct File {

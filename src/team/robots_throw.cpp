@@ -9,6 +9,7 @@
 #include "servo/skip_sheet.hpp"
 #include "servo/stone_path.hpp"
 #include "src/team/seen_trajectory.hpp"
+#include "src/team/turn_order.hpp"
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -136,31 +137,16 @@ std::optional<ThrowReport> RobotsThrow::preparing() {
   return failed(thrower.empty() ? "the skip does not come to wait for the stone" : "the thrower: " + thrower);
 }
 
-// The stones are where the skip has just seen them; those that it did not see are where they were.
 std::optional<ThrowReport> RobotsThrow::decide() {
-  record_.before = team_.skip().skip().diagnosis().standing;
-  names_ = names_of(record_.before, record_.turn.board);
-  servo::Board board = record_.turn.board;
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (!names_[i]) {
-      record_.remarks.push_back("before the throw the skip sees something that is none of the board's stones");
-      continue;
-    }
-    auto& stone = board.stones[names_[i]->side][names_[i]->stone];
-    stone = on_board(record_.before[i].x_m, record_.before[i].y_m, 0.0);
-  }
+  const servo::SkipDiagnosis& known = team_.skip().skip().diagnosis();
+  record_.before = known.standing;
+  TurnOrder order = order_of(record_.turn, record_.before, known.sheet_width_m, skill_, ice_);
+  names_ = std::move(order.names);
+  record_.remarks.insert(record_.remarks.end(), order.remarks.begin(), order.remarks.end());
   ThrowReport& report = record_.report;
-  if (record_.turn.decision.order) {
-    report.order = *record_.turn.decision.order;
-  } else {
-    servo::Surroundings around{{}, team_.skip().skip().diagnosis().sheet_width_m};
-    for (const auto& side : board.stones)
-      for (const auto& stone : side)
-        if (stone) around.stones.push_back({stone->x_m, stone->y_m});
-    report.mapped = map_shot(std::get<servo::HackShot>(record_.turn.decision.move), around, skill_, ice_);
-    if (!report.mapped->ok) return closed(ThrowEnd::refused, report.mapped->reason);
-    report.order = report.mapped->order;
-  }
+  report.mapped = order.mapped;
+  if (!order.refused.empty()) return closed(ThrowEnd::refused, order.refused);
+  report.order = order.order;
   team_.skip().order(report.order, ++shot_, record_.turn.team, team_.now());
   servo::ShotOrder thrown = report.order;
   thrown.release_x_m = release_place(skill_, thrown.heading_rad).x_m;

@@ -12,6 +12,7 @@ namespace hogline {
 namespace {
 
 constexpr Duration track_period = std::chrono::milliseconds(100);
+constexpr Duration answer_limit = std::chrono::milliseconds(1500);  // five times what a silent predecessor counts for
 // What a release by the thrower's own word is off (doc/performance.md: its campaigns), and what two machines differ in
 // where the far tee is.
 constexpr double release_place_sigma_m = 0.03;
@@ -52,6 +53,7 @@ SkipMember::SkipMember(const config::SkipRig& rig, const SkipDevices& devices, S
 void SkipMember::step(Stamp now, Duration dt) {
   link_.step(now);
   listen(now);
+  if (held_) send_order(now);
   if (loop_) {
     loop_->step(now, dt);
     tell(now);
@@ -63,6 +65,7 @@ void SkipMember::step(Stamp now, Duration dt) {
 void SkipMember::begin(const servo::IceEstimate& ice, Stamp now) {
   if (stopping_) stop_thrower(false, {}, now);
   stopping_ = board_told_ = outcome_told_ = false;
+  held_.reset();
   ordered_ = OrderPhase::none;
   why_.clear();
   release_.reset();
@@ -85,11 +88,29 @@ void SkipMember::order(const servo::ShotOrder& order, std::uint32_t shot, Team t
   loop_->expect(signed_spin(order));
   why_ = "the thrower does not answer";
   hw::ShotOrderMessage message;
-  message.thrower_session = link_.peer_session(now);
   message.shot = shot;
   message.speed_mps = order.speed_mps;
   message.heading_rad = order.heading_rad;
   message.spin_radps = signed_spin(order);
+  held_ = Held{message, now};
+  ordered_ = OrderPhase::sent;
+  send_order(now);
+}
+
+// An order that the thrower would not take for ours, or could not tell the age of, would be lost.
+void SkipMember::send_order(Stamp now) {
+  const bool over_meanwhile = over();
+  if (!over_meanwhile && !link_.answered(now) && now - held_->since < answer_limit) return;
+  hw::ShotOrderMessage message = std::exchange(held_, std::nullopt)->message;
+  if (over_meanwhile || !link_.answered(now)) {
+    ordered_ = OrderPhase::refused;
+    const std::string missing = link_.missing(now);
+    why_ = over_meanwhile    ? "the skip: " + loop_->skip().report().reason
+           : missing.empty() ? "the thrower answers to another skip, or not yet to this one"
+                             : missing;
+    return;
+  }
+  message.thrower_session = link_.peer_session(now);
   const auto sent = link_.send(message, now);
   ordered_ = sent == hw::TeamSendResult::sent ? OrderPhase::sent : OrderPhase::refused;
   if (ordered_ == OrderPhase::sent) ++orders_;
@@ -104,7 +125,12 @@ void SkipMember::listen(Stamp now) {
   }
 }
 
+bool SkipMember::thrower_armed(Stamp now) const {
+  return thrower_ && thrower_->armed && thrower_->origin.session == link_.peer_session(now) && missing(now).empty();
+}
+
 void SkipMember::take(const hw::ThrowerStateMessage& state) {
+  thrower_ = state;
   using hw::ThrowerPhase;
   const bool open = ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing;
   if (!open || state.order_serial != orders_) return;
@@ -130,7 +156,7 @@ void SkipMember::tell(Stamp now) {
   if (has_looked() && !board_told_) tell_board(now);
   if (loop_->skip().state() == servo::SkipState::follow && now >= next_track_) tell_track(now);
   if (over() && !outcome_told_) tell_outcome(now);
-  const bool runs = ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing;
+  const bool runs = !held_ && (ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing);
   if (over() && runs && !stopping_) stop_thrower(true, "the skip: " + loop_->skip().report().reason, now);
 }
 

@@ -17,7 +17,7 @@ namespace hogline {
 /// What has become of the order.
 enum class OrderPhase {
   none,      ///< nothing was ordered since begin()
-  sent,      ///< and not answered
+  sent,      ///< or about to be, once the thrower answers to us; not answered
   throwing,  ///< the thrower has taken it
   released,  ///< the stone is free
   refused,   ///< or stopped before the release: the stone has not been thrown
@@ -48,7 +48,11 @@ class SkipMember {
   /// Why no thrower is there to order from; empty while it is.
   std::string missing(Stamp now) const { return link_.missing(now); }
 
-  /// Precondition: has_looked(). `shot`: of the end, from 1; `team`: whose stone it is.
+  /// By its own word: its operator holds the switch.
+  bool thrower_armed(Stamp now) const;
+
+  /// Precondition: has_looked(). `shot`: of the end, from 1; `team`: whose stone it is. A thrower that does not yet
+  /// answer to us, because one of us was just started, is waited for; then the order is refused.
   void order(const servo::ShotOrder& order, std::uint32_t shot, Team team, Stamp now);
   OrderPhase ordered() const { return ordered_; }
   /// Why, when refused.
@@ -59,6 +63,7 @@ class SkipMember {
   std::optional<Stamp> released_at() const { return released_at_; }
 
  private:
+  void send_order(Stamp now);
   void listen(Stamp now);
   void take(const hw::ThrowerStateMessage& state);
   void take(const hw::ReleaseMessage& release, Stamp now);
@@ -74,6 +79,13 @@ class SkipMember {
   LinkEnd link_;
   std::unique_ptr<SkipSeer> seer_;
   std::unique_ptr<SkipLoop> loop_;
+  /// An order that waits to be sent.
+  struct Held {
+    hw::ShotOrderMessage message;
+    Stamp since{};
+  };
+  std::optional<Held> held_;
+  std::optional<hw::ThrowerStateMessage> thrower_;  ///< as it told last
   OrderPhase ordered_ = OrderPhase::none;
   std::string why_;
   std::optional<hw::ReleaseMessage> release_;

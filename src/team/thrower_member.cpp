@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hw/link/link_config.hpp"
 #include "vision/geometry/sheet.hpp"
 
 namespace hogline {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr Duration state_period = std::chrono::milliseconds(500);
 constexpr Duration longest_age = std::chrono::seconds(2);
-constexpr Duration commander_gone = std::chrono::seconds(1);
 constexpr double standing_radps = 0.002;
 
 // The line of an order over the link runs through the middle of the hack.
@@ -45,7 +45,7 @@ ThrowerMember::ThrowerMember(const config::ThrowerRig& rig, const ThrowerDevices
       gate_({.commander = "skip",
              .session = link.state().session,
              .longest_age = longest_age,
-             .commander_gone = commander_gone}) {}
+             .commander_gone = hw::link::heartbeat_deadline}) {}
 
 void ThrowerMember::step(Stamp now, Duration dt) {
   link_.step(now);
@@ -56,31 +56,55 @@ void ThrowerMember::step(Stamp now, Duration dt) {
 
 void ThrowerMember::listen(Stamp now) {
   while (const auto received = link_.receive(now)) {
-    const hw::Origin& origin = hw::origin_of(received->message);
-    gate_.heard(origin, received->received);
-    if (origin.robot == "skip" && std::exchange(commander_session_, origin.session) != origin.session && !throwing()) {
-      order_serial_ = 0;  // its numbers begin anew
-      refused_.clear();
+    if (std::holds_alternative<hw::HeartbeatMessage>(received->message)) {
+      gate_.heard(hw::origin_of(received->message), received->received);
+      know_commander(now);
     }
     if (const auto* order = std::get_if<hw::ShotOrderMessage>(&received->message)) take(*order, now);
-    if (const auto* stop = std::get_if<hw::EmergencyStopMessage>(&received->message)) {
-      emergency_ = stop->pressed ? "emergency stop by '" + stop->origin.robot + "': " + stop->reason : "";
-    }
+    if (const auto* stop = std::get_if<hw::EmergencyStopMessage>(&received->message)) take(*stop);
   }
+}
+
+void ThrowerMember::know_commander(Stamp now) {
+  const std::uint64_t session = link_.peer_session(now);
+  if (std::exchange(commander_session_, session) == session || throwing()) return;
+  order_serial_ = 0;  // its numbers begin anew
+  refused_.clear();
+  last_refusal_.clear();
+}
+
+// Whoever called a stop takes it back, nobody else.
+void ThrowerMember::take(const hw::EmergencyStopMessage& stop) {
+  if (stop.pressed) {
+    stops_[stop.origin.robot] = stop.reason;
+  } else {
+    stops_.erase(stop.origin.robot);
+  }
+}
+
+std::string ThrowerMember::called_stop() const {
+  if (stops_.empty()) return {};
+  const auto& [robot, reason] = *stops_.begin();
+  return "emergency stop by '" + robot + "': " + reason;
 }
 
 void ThrowerMember::take(const hw::ShotOrderMessage& order, Stamp now) {
   ++orders_;
   const auto verdict = gate_.judge(order, link_.local(order.origin.stamp, now), now);
-  refused_ = verdict.reason;
-  if (verdict.accepted) refused_ = throwing() ? "another order is being thrown" : not_ready();
-  if (refused_.empty()) return begin(order, now);
-  if (!throwing()) order_serial_ = order.origin.serial;
+  last_refusal_ = verdict.reason;
+  if (verdict.accepted) last_refusal_ = throwing() ? "another order is being thrown" : not_ready();
+  if (last_refusal_.empty()) return begin(order, now);
   next_state_ = now;
+  // What becomes of our commander's own order is not overwritten by anybody else's, nor by one that comes too much.
+  const bool answers_commander = order.origin.robot == "skip" && order.origin.session == commander_session_;
+  if (throwing() || !answers_commander) return;
+  refused_ = last_refusal_;
+  order_serial_ = order.origin.serial;
 }
 
 void ThrowerMember::begin(const hw::ShotOrderMessage& order, Stamp now) {
   order_serial_ = order.origin.serial;
+  refused_.clear();
   seer_ = seers_();
   loop_ = std::make_unique<ThrowerLoop>(devices_, ThrowerEyes(*seer_, rig_.looks),
                                         servo::Thrower(rig_.thrower, order_of(order, rig_.thrower.release), now),
@@ -92,7 +116,7 @@ void ThrowerMember::begin(const hw::ShotOrderMessage& order, Stamp now) {
 
 std::string ThrowerMember::not_ready() const {
   using hw::DrivePhase;
-  if (!emergency_.empty()) return emergency_;
+  if (std::string stop = called_stop(); !stop.empty()) return stop;
   const std::array errors{devices_.drive.state().error, devices_.gripper.state().error, devices_.arm.state().error,
                           devices_.gyro.state().error};
   for (const auto& error : errors)
@@ -111,7 +135,7 @@ void ThrowerMember::load() {
   clear(devices_.gyro, devices_.gyro.state().error);
   clear(devices_.near_camera, devices_.near_camera.error());
   clear(devices_.low_camera, devices_.low_camera.error());
-  emergency_.clear();
+  stops_.clear();
   loading_ = true;
 }
 
@@ -135,7 +159,7 @@ void ThrowerMember::stand_by(Stamp now) {
 // would call their end a fault.
 void ThrowerMember::run(Stamp now, Duration dt) {
   const std::string missing = link_.missing(now);
-  if (!emergency_.empty()) loop_->stop(emergency_);
+  if (!stops_.empty()) loop_->stop(called_stop());
   if (!missing.empty() && !loop_->thrower().released()) loop_->stop("link: " + missing);
   loop_->step(now, dt);
   if (loop_->thrower().diagnosis().freed && !release_told_) tell_release(now);
@@ -180,6 +204,7 @@ void ThrowerMember::tell(Stamp now) {
   state.order_serial = order_serial_;
   state.reason = refused_;
   if (refused_.empty() && loop_) state.reason = loop_->thrower().abort_reason().value_or("");
+  if (state.reason.empty()) state.reason = last_refusal_;
   const bool changed = state.phase != told_.phase || state.order_serial != told_.order_serial ||
                        state.armed != told_.armed || state.reason != told_.reason;
   if (!changed && now < next_state_) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,7 +35,7 @@ class ThrowerMember {
   void load();
   bool throwing() const { return loop_ && !over_; }
   /// Why the last order was refused; empty when it was not.
-  const std::string& refused() const { return refused_; }
+  const std::string& refused() const { return last_refusal_; }
   /// How many orders came in, whatever became of them.
   long orders() const { return orders_; }
   /// Empty: an order would be thrown.
@@ -47,7 +48,10 @@ class ThrowerMember {
 
  private:
   void listen(Stamp now);
+  void know_commander(Stamp now);
   void take(const hw::ShotOrderMessage& order, Stamp now);
+  void take(const hw::EmergencyStopMessage& stop);
+  std::string called_stop() const;
   void begin(const hw::ShotOrderMessage& order, Stamp now);
   void stand_by(Stamp now);
   void run(Stamp now, Duration dt);
@@ -68,9 +72,10 @@ class ThrowerMember {
   bool loading_ = false;
   std::uint64_t order_serial_ = 0;
   std::uint64_t commander_session_ = 0;
-  std::string refused_;  ///< why the last order was
+  std::string refused_;       ///< why the commander's last order was, while nothing was thrown
+  std::string last_refusal_;  ///< why the last order was, of whomever and whenever
   long orders_ = 0;
-  std::string emergency_;
+  std::map<std::string, std::string> stops_;  ///< in force: by whom, and why
   hw::ThrowerStateMessage told_;
   Stamp next_state_{};
 };

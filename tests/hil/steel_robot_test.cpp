@@ -1,10 +1,12 @@
 // A robot's devices opened as its rig file names them, on the kernel's own lines: drives on vcan, gripper and arm on
-// TCP, gyro on a serial line, all of them in another program (rink_program), and recorded pictures.
+// TCP, gyro on a serial line, all of them in another program (`hogline rink`), and recorded pictures; and the thrower's
+// own program beside it.
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -28,19 +30,14 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-// Where the other program's devices are.
-struct Lines {
-  int modbus_port = 0;
-  std::string gyro;
-};
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
-std::optional<Lines> lines_of(const std::string& file) {
-  std::ifstream words(file);
-  std::string modbus;
-  std::string gyro;
-  Lines lines;
-  if (words >> modbus >> lines.modbus_port >> gyro >> lines.gyro) return lines;
-  return std::nullopt;
+std::string kept(const std::string& path, const std::string& text) {
+  std::ofstream(path) << text;
+  return path;
 }
 
 // A folder of small pictures, no two alike: two a second for longer than the test takes.
@@ -55,12 +52,11 @@ std::string recording() {
   return folder;
 }
 
-// The practice rig as a rig of steel; without a head, of which the rink has none.
-std::string steel_rig(const Lines& lines) {
+// The practice rig on the lines of this machine; without a head, of which the rink has none.
+std::string practice_rig_here() {
   std::string text{config::embedded_file("rigs/practice.yaml")};
   const auto head = text.find("\nhead:");
   text.erase(head, text.find("\nmodbus:") - head);
-  replace_all(text, "simulated: {}", "folder: {path: " + recording() + ", rate_hz: 2}");
   for (const auto& [full, small] : {std::pair("width_px: 1600", "width_px: 320"),
                                     {"height_px: 1200", "height_px: 240"},
                                     {"cx_px: 803.2", "cx_px: 160"},
@@ -70,8 +66,31 @@ std::string steel_rig(const Lines& lines) {
     replace_all(text, full, small);
   }
   replace_all(text, "interface: can0", "interface: vcan0");
-  replace_all(text, "port: 502", "port: " + std::to_string(lines.modbus_port));
-  replace_all(text, "/dev/serial/by-id/usb-GYRO", lines.gyro);
+  replace_all(text, "port: 502", "port: 50502");
+  replace_all(text, "/dev/serial/by-id/usb-GYRO", "/run/gyro");
+  return text;
+}
+
+// ... as a rig of steel, and as the rink's, which nobody asks for pictures here.
+std::string steel_rig() {
+  std::string text = practice_rig_here();
+  replace_all(text, "simulated: {}", "folder: {path: " + recording() + ", rate_hz: 2}");
+  return text;
+}
+
+std::string rink_rig() {
+  std::string text = practice_rig_here();
+  for (const char* camera : {"hil-near", "hil-low"}) {
+    const auto at = text.find("simulated: {}");
+    text.replace(at, std::string("simulated: {}").size(), std::string("shared_memory: ") + camera);
+  }
+  return text;
+}
+
+// A test machine that stalls is no lost master.
+std::string patient_scenario() {
+  std::string text{config::embedded_file("scenarios/practice.yaml")};
+  replace_all(text, "watchdog_s: 0.3", "watchdog_s: 5.0");
   return text;
 }
 
@@ -96,8 +115,9 @@ config::ThrowerRig patient(config::ThrowerRig rig) {
 class SteelRobotTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(wait_until([] { return lines_of("/run/rink.txt").has_value(); })) << "the rink does not start";
-    rig_ = patient(config::parse_thrower_rig(steel_rig(*lines_of("/run/rink.txt")), "steel.yaml"));
+    ASSERT_TRUE(wait_until([] { return text_of("/run/rink.txt").find("ready") != std::string::npos; }))
+        << "the rink does not start";
+    rig_ = patient(config::parse_thrower_rig(steel_rig(), "steel.yaml"));
     robot_.emplace(*rig_, clock_);
   }
 
@@ -133,7 +153,9 @@ class SteelRobotTest : public testing::Test {
     return text;
   }
 
-  Process rink_{{HOGLINE_RINK_PROGRAM, "vcan0"}, "/run/rink.txt"};
+  Process rink_{{HOGLINE_PROGRAM, "rink", "--rig", kept("/run/rink.yaml", rink_rig()), "--scenario",
+                 kept("/run/scenario.yaml", patient_scenario())},
+                "/run/rink.txt"};
   hw::SteadyClock clock_;
   std::optional<config::ThrowerRig> rig_;
   mutable std::optional<SteelRobot> robot_;
@@ -217,6 +239,54 @@ TEST_F(SteelRobotTest, TheThrowersOwnLoopRunsOnItAndEndsAThrowThatSeesNothing) {
   EXPECT_FALSE(loop.thrower().released());
   EXPECT_EQ(robot_->gripper().state().jaws, hw::JawState::holding);
   EXPECT_LT(std::abs(robot_->drive().state().measured.left_radps), 0.05);
+}
+
+// The rig of `hogline thrower` with the kernel's bus in the place of datagrams; a kernel within a kernel is given time.
+std::string thrower_rig() {
+  std::string text = text_of(std::string(HOGLINE_SOURCE_DIR) + "/config/rigs/thrower.yaml");
+  const auto bus = text.find("can: {udp_multicast");
+  text.replace(bus, text.find('\n', bus) - bus, "can: {interface: vcan0}");
+  for (const auto& [tight, wide] : {std::pair("/tmp/hogline-thrower-gyro", "/run/thrower-gyro"),
+                                    {"/tmp/hogline-thrower-operator", "/run/thrower-operator"},
+                                    {"command_age_limit_s: 0.060", "command_age_limit_s: 1.0"},
+                                    {"feedback_timeout_s: 0.080", "feedback_timeout_s: 2.0"},
+                                    {"rpdo_timeout_s: 0.100", "rpdo_timeout_s: 2.0"},
+                                    {"heartbeat_timeout_s: 0.300", "heartbeat_timeout_s: 2.0"},
+                                    {"sdo_timeout_s: 0.100", "sdo_timeout_s: 2.0"},
+                                    {"boot_timeout_s: 5.0", "boot_timeout_s: 20.0"},
+                                    {"response_timeout_s: 0.2", "response_timeout_s: 1.0"},
+                                    {"silence_limit_s: 0.1 ", "silence_limit_s: 1.0 "},
+                                    {"silence_limit_s: 0.25", "silence_limit_s: 2.0"},
+                                    {"silence_limit_s: 0.4", "silence_limit_s: 2.0"},
+                                    {"operator_age_s: 0.5", "operator_age_s: 2.0"}}) {
+    replace_all(text, tight, wide);
+  }
+  return text;
+}
+
+TEST(ThrowerProgram, ArmsOnTheKernelsBusWithTheRinksProgramBehindIt) {
+  const std::string rig = kept("/run/thrower.yaml", thrower_rig());
+  Process rink({HOGLINE_PROGRAM, "rink", "--rig", rig, "--scenario", kept("/run/scenario.yaml", patient_scenario())},
+               "/run/thrower-rink.txt");
+  const auto tells = [](const char* who, const char* event) {
+    return text_of(std::string("/run/") + who + ".txt").find(std::string("\"event\":\"") + event) != std::string::npos;
+  };
+  ASSERT_TRUE(wait_until([&] { return tells("thrower-rink", "ready"); }));
+  Process thrower({HOGLINE_PROGRAM, "thrower", "--rig", rig}, "/run/thrower.txt");
+  std::string skip_rig = thrower_rig();
+  replace_all(skip_rig, "robot: thrower", "robot: skip");
+  replace_all(skip_rig, "peers: [skip]", "peers: [thrower]");
+  Process skip({HOGLINE_PROGRAM, "link", "--rig", kept("/run/skip.yaml", skip_rig), "--seconds", "120"},
+               "/run/skip.txt");
+  const auto well = [&] {
+    return text_of("/run/thrower.txt").find("the operator's switch is not held") != std::string::npos;
+  };
+  ASSERT_TRUE(wait_until(well, 60s)) << text_of("/run/thrower.txt");
+  Process hand({HOGLINE_PROGRAM, "hold", "--rig", rig});
+  EXPECT_TRUE(wait_until([&] { return tells("thrower", "armed"); }, 60s)) << text_of("/run/thrower.txt");
+  thrower.signal(SIGTERM);
+  EXPECT_EQ(thrower.wait(), 0);
+  std::printf("%s", text_of("/run/thrower.txt").c_str());
 }
 
 TEST(SteelRobotConfig, RefusesARigOfTheSimulatedRink) {

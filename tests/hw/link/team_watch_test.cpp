@@ -54,10 +54,27 @@ TEST(TeamWatch, a_new_start_is_counted_and_its_clock_is_measured_anew) {
   with_echo.echoes = {{.robot = "thrower", .session = ours, .sent = TeamTime{99s}, .heard = TeamTime{51s}}};
   watch.hear(with_echo, 0ms);
   EXPECT_TRUE(watch.skip(0ms).clock);
-  watch.hear(beat(1, 10), 100ms);
-  EXPECT_EQ(watch.skip(100ms).restarts, 1);
-  EXPECT_EQ(watch.skip(100ms).session, 10U);
-  EXPECT_FALSE(watch.skip(100ms).clock);
+  watch.hear(beat(1, 10), 301ms);
+  EXPECT_EQ(watch.skip(301ms).restarts, 1);
+  EXPECT_EQ(watch.skip(301ms).session, 10U);
+  EXPECT_FALSE(watch.skip(301ms).clock);
+}
+
+// A second of the name must not keep the first alive, nor take its clock's place.
+TEST(TeamWatch, a_second_start_is_not_believed_while_the_first_is_there) {
+  Watch watch;
+  HeartbeatMessage first = beat(1);
+  first.echoes = {{.robot = "thrower", .session = ours, .sent = TeamTime{99s}, .heard = TeamTime{51s}}};
+  watch.hear(first, 0ms);
+  watch.hear(beat(1, 10), 150ms);
+  watch.hear(beat(2, 10), 300ms);
+  EXPECT_EQ(watch.rivals(), 2);
+  EXPECT_EQ(watch.skip(300ms).session, 9U);
+  EXPECT_TRUE(watch.skip(300ms).clock);
+  EXPECT_EQ(watch.echoes()[0].session, 9U) << "the second is not answered";
+  EXPECT_EQ(watch.skip(301ms).presence, Presence::silent);
+  watch.hear(beat(3, 10), 350ms);
+  EXPECT_EQ(watch.skip(350ms).session, 10U) << "the first is gone";
 }
 
 TEST(TeamWatch, lost_heartbeats_are_counted) {

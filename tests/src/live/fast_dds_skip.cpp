@@ -1,4 +1,5 @@
-// Another vendor's machine in the skip's place: it is heard, hears, and orders one shot of an armed thrower.
+// Another vendor's machine in the skip's place: it is heard, hears, and orders one shot of an armed thrower. Once that
+// is thrown it sends the very same order again and again.
 //   fast_dds_skip DOMAIN
 // Lines on stdout, in JSON as hogline's own programs tell: "ordered", "thrower", "released". It runs until it is killed
 // or its parent is gone.
@@ -60,11 +61,13 @@ class Skip {
       const bool refused = ordered_ && m.order_serial == order_serial_ && m.phase == stopped && !m.reason.empty();
       if (refused) tell("refused", m.reason);
       ordered_ = ordered_ && !refused;
-      if (!ordered_ && m.armed && beats_heard_ > 20) order(m.origin.session);
+      if (!ordered_ && !released_ && m.armed && beats_heard_ > 20) order(m.origin.session);
     });
     peer::take<peer::Release>(releases_, [&](const peer::Release& m) {
       tell("released", std::to_string(m.speed_mps) + " " + std::to_string(m.hog_distance_m));
+      released_ = true;
     });
+    if (released_) orders_->write(&last_);
   }
 
  private:
@@ -85,6 +88,7 @@ class Skip {
     order.speed_mps = 2.25;
     order.spin_radps = -1.5;
     ordered_ = orders_->write(&order);
+    last_ = order;
     tell("ordered", "2.25 m/s");
   }
 
@@ -99,6 +103,8 @@ class Skip {
   int beats_heard_ = 0;
   int phase_ = -1;
   bool ordered_ = false;
+  bool released_ = false;
+  peer::ShotOrder last_;
   std::uint64_t order_serial_ = 0;
   peer::Echo echo_;
 };

@@ -58,6 +58,7 @@ Kill draw(std::mt19937& random, int number) {
     const char* state;
     double span_s;
   };
+  constexpr std::array<Part, 3> games{{{"asked", 1.5}, {"asked", 4.0}, {"throwing", 11.0}}};
   constexpr std::array<Part, 8> parts{{{"unfold", 1.5},
                                        {"rehearse", 0.9},
                                        {"measure", 0.9},
@@ -66,20 +67,24 @@ Kill draw(std::mt19937& random, int number) {
                                        {"run", 4.8},
                                        {"run", 4.8},
                                        {"run", 4.8}}};
-  constexpr std::array<const char*, 3> whom{"thrower", "skip", "rink"};
+  constexpr std::array<const char*, 4> whom{"thrower", "skip", "rink", "strategist"};
   const auto share = [&random](double least, double most) {
     return from_seconds(std::uniform_real_distribution<double>(least, most)(random));
   };
-  const Part part = pick(parts, random);
-  return {.whom = whom[static_cast<std::size_t>(number) % whom.size()],
-          .signal = number / 3 % 2 == 0 ? SIGKILL : SIGSTOP,
+  const char* who = whom[static_cast<std::size_t>(number) % whom.size()];
+  const Part part = who == std::string("strategist") ? pick(games, random) : pick(parts, random);
+  return {.whom = who,
+          .signal = number / 4 % 2 == 0 ? SIGKILL : SIGSTOP,
           .stopped_for = share(1.0, 3.0),
           .state = part.state,
           .after = share(0.0, part.span_s)};
 }
 
+bool is_strategist(const Kill& kill) { return kill.whom == std::string("strategist"); }
+
 Member& member(TeamScene& scene, const std::string& name) {
   if (name == "thrower") return scene.thrower();
+  if (name == "strategist") return scene.strategist();
   return name == "skip" ? scene.skip() : scene.rink();
 }
 
@@ -114,14 +119,20 @@ std::optional<Stamp> throw_began(TeamScene& scene) {
   constexpr int attempts = 3;
   for (int i = 0; i < attempts; ++i) {
     const Stamp begin = now();
-    scene.skip().start();
-    scene.hand().start();
-    wait_until(
-        [&] { return scene.thrower().told_since(begin, "throwing") || scene.thrower().told_since(begin, "disarmed"); },
-        40s);
+    if (scene.skip_waits()) {
+      scene.hand().start();
+      wait_until([&] { return scene.thrower().told_since(begin, "armed").has_value(); }, 20s);
+      scene.skip().say("order 2.1 0 1.5");
+      wait_until(
+          [&] {
+            return scene.thrower().told_since(begin, "throwing") || scene.thrower().told_since(begin, "disarmed");
+          },
+          40s);
+    }
     if (scene.thrower().told_since(begin, "throwing")) return begin;
     scene.hand().end();
     scene.skip().end();
+    if (!scene.set_up()) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -149,7 +160,7 @@ std::string words_since(TeamScene& scene, const Kill& kill, Stamp at) {
   std::string words;
   for (Member* m : {&scene.thrower(), &scene.skip()}) {
     if (m->name() == kill.whom && kill.signal == SIGKILL) continue;
-    for (const char* event : {"aborted", "disarmed", "not ready", "silent", "not thrown"}) {
+    for (const char* event : {"aborted", "disarmed", "not ready", "silent", "stopped"}) {
       const auto told = m->told_since(at, event);
       if (!told) continue;
       words +=
@@ -179,29 +190,26 @@ void judge(TeamScene& scene, Result& r, Stamp at) {
   r.still = stood.has_value();
 }
 
-Result carry_out(TeamScene& scene, const Kill& kill) {
-  Result r;
-  r.kill = kill;
-  const Stamp begin = now();
-  if (!scene.set_up()) {
-    r.problem = "can not be set up again";
-    return r;
-  }
-  r.began = throw_reaches(scene, kill, r.problem);
-  if (!r.began) return r;
-  // A throw that a busy machine has ended before: then nobody has anything to say.
-  const bool under_way = !scene.thrower().told_since(begin, "aborted");
-  const Stamp at = now();
+void strike(TeamScene& scene, const Kill& kill, Result& r, Stamp at) {
   member(scene, kill.whom).signal(kill.signal);
   std::this_thread::sleep_for(50ms);
   const TrueMoment before = moment_at(scene.truth(), at);
   r.moved = before.moves;
   r.speed_mps = before.speed_mps;
   r.released_before = moment_at(scene.truth(), at + notice_limit).released;
-  if (kill.signal == SIGSTOP) {
-    std::this_thread::sleep_for(kill.stopped_for);
-    member(scene, kill.whom).signal(SIGCONT);
-  }
+  if (kill.signal != SIGSTOP) return;
+  std::this_thread::sleep_for(kill.stopped_for);
+  member(scene, kill.whom).signal(SIGCONT);
+}
+
+void judge_throw(TeamScene& scene, const Kill& kill, Result& r) {
+  const Stamp begin = now();
+  r.began = throw_reaches(scene, kill, r.problem);
+  if (!r.began) return;
+  // A throw that a busy machine has ended before: then nobody has anything to say.
+  const bool under_way = !scene.thrower().told_since(begin, "aborted");
+  const Stamp at = now();
+  strike(scene, kill, r, at);
   judge(scene, r, at);
   wait_until([&] { return !(r.said = words_since(scene, kill, at)).empty(); }, 5s);
 
@@ -215,6 +223,70 @@ Result carry_out(TeamScene& scene, const Kill& kill) {
   if (r.problem.empty() && r.released_after) r.problem = "a stone was let go";
   if (r.problem.empty() && r.stop_s && *r.stop_s > seconds(stop_limit)) r.problem = "stopped late";
   if (r.problem.empty() && r.said.empty() && under_way) r.problem = "nobody said anything";
+}
+
+// One that was stopped while it thinks goes on, and decides after all.
+void judge_thinking(TeamScene& scene, const Kill& kill, Result& r, Stamp at) {
+  const bool killed = kill.signal == SIGKILL;
+  const char* event = killed ? "game stopped" : "decided";
+  if (!killed) scene.strategist().say("move");
+  wait_until([&] { return scene.skip().told_since(at, event).has_value(); }, 30s);
+  const auto told = scene.skip().told_since(at, event);
+  r.still = true;
+  for (const TrueMoment& m : scene.truth()) r.still = r.still && !(m.at > at && m.moves);
+  if (!told) r.problem = "nobody said anything";
+  if (!r.still) r.problem = "moves though nothing was ordered";
+  if (told) r.said = "skip: " + told->event + ", " + told->what;
+  // The turn is begun again with another strategist.
+  if (killed && r.problem.empty() && !scene.begin_game()) r.problem = "the turn does not begin again";
+}
+
+// What it has decided is thrown without it; the game stops when the stone lies, or when the throw was given up.
+void judge_decided(TeamScene& scene, const Kill& kill, Result& r, Stamp began) {
+  wait_until([&] { return scene.thrower().told_since(began, "disarmed").has_value(); }, 60s);
+  const auto end = scene.thrower().told_since(began, "disarmed");
+  if (!end) r.problem = "the throw does not end";
+  if (!end) return;
+  r.still = true;
+  r.said = "thrower: " + end->event + ", " + end->what;
+  scene.hand().end();
+  if (kill.signal == SIGSTOP) return;
+  scene.skip().say("stop");
+  wait_until([&] { return scene.skip().told_since(began, "game stopped").has_value(); }, 60s);
+  const auto stopped = scene.skip().told_since(began, "game stopped");
+  if (stopped) r.said += "; skip: " + stopped->event + ", " + stopped->what;
+  // Given up: the turn waits for the thrower to be armed again, and needs nobody to decide it anew.
+  const bool waits = scene.skip().told_since(began, "not thrown").has_value();
+  if (waits && !stopped) r.said += "; skip: not thrown, " + scene.skip().told_since(began, "not thrown")->what;
+  if (!stopped && !waits) r.problem = "nobody said anything";
+}
+
+// A strategist decides before anything moves: one that dies while it thinks has decided nothing.
+void judge_game(TeamScene& scene, const Kill& kill, Result& r) {
+  r.began = scene.begin_game();
+  if (!r.began) r.problem = "no game began";
+  if (!r.began) return;
+  const Stamp began = now();
+  const bool thinks = kill.state == std::string("asked");
+  if (!thinks) {
+    scene.strategist().say("move");
+    scene.hand().start();
+    wait_until([&] { return scene.thrower().told_since(began, "throwing").has_value(); }, 40s);
+  }
+  std::this_thread::sleep_for(kill.after);
+  const Stamp at = now();
+  strike(scene, kill, r, at);
+  thinks ? judge_thinking(scene, kill, r, at) : judge_decided(scene, kill, r, began);
+}
+
+Result carry_out(TeamScene& scene, const Kill& kill) {
+  Result r;
+  r.kill = kill;
+  if (!scene.set_up()) {
+    r.problem = "can not be set up again";
+    return r;
+  }
+  is_strategist(kill) ? judge_game(scene, kill, r) : judge_throw(scene, kill, r);
   return r;
 }
 
@@ -229,7 +301,7 @@ std::string row(int number, const Result& r) {
 
 // For whoever wants to know why.
 void tell_all(TeamScene& scene, Stamp since) {
-  for (Member* m : {&scene.rink(), &scene.thrower(), &scene.skip(), &scene.hand()})
+  for (Member* m : {&scene.rink(), &scene.thrower(), &scene.skip(), &scene.strategist(), &scene.hand()})
     for (const Told& t : m->told())
       if (t.at >= since) fmt::print(stderr, "  {:8.3f} {} {}: {}\n", seconds(t.at - since), m->name(), t.event, t.what);
 }
@@ -241,7 +313,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   const int trials = std::atoi(arguments[2]);
   std::mt19937 random(static_cast<std::uint32_t>(std::atol(arguments[3])));
-  TeamScene scene(arguments[1]);
+  TeamScene scene(arguments[1], {.whole_skip = true, .strategist = true});
   std::vector<double> stops;
   int problems = 0;
   int moving = 0;

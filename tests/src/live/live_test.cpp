@@ -2,10 +2,13 @@
 // is not. Everything is judged by what the programs tell and by the rink's truth, nothing by how long it took.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "tests/src/live/team_scene.hpp"
@@ -14,21 +17,24 @@ namespace hogline::live_test {
 namespace {
 
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 constexpr Duration patience = 60s;
 constexpr int throws = 4;
 
-std::string all_of(Member& member) {
-  std::string text;
-  for (const Told& t : member.told()) text += t.event + ": " + t.what + "\n";
-  return text;
-}
-
-// What a machine that is too slow for the rink's clock makes of a throw: it is given up, for this reason.
-bool is_lateness(const std::string& why) {
-  constexpr std::array<const char*, 6> words{": stale",          "control period: too long", "too old",
-                                             "no new set-point", "refreshes came too late",  "is silent"};
-  return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
+// The next stone is there, and the operator arms: the order that was thrown comes again and again, and is refused.
+void expect_no_replay_is_thrown(TeamScene& scene) {
+  scene.hand().end();
+  const Stamp begin = now();
+  scene.rink().say("again");
+  ASSERT_TRUE(wait_until([&] { return scene.rink().told_since(begin, "again").has_value(); }, patience));
+  scene.hand().start();
+  ASSERT_TRUE(wait_until([&] { return scene.thrower().told_since(begin, "armed").has_value(); }, patience))
+      << all_of(scene.thrower());
+  const Stamp armed = now();
+  ASSERT_TRUE(wait_until([&] { return scene.thrower().told_since(armed, "order refused").has_value(); }, patience));
+  EXPECT_THAT(scene.thrower().told_since(armed, "order refused")->what, HasSubstr("it is thrown once"));
+  EXPECT_FALSE(scene.thrower().told_since(begin, "throwing")) << all_of(scene.thrower());
 }
 
 // The rink runs by the wall clock: a busy machine may make a throw abort, safely. Then the next one is tried; a machine
@@ -60,6 +66,7 @@ TEST(LiveTeam, a_shot_ordered_over_fast_dds_is_thrown_by_the_thrower_on_the_rink
         << all_of(fast_dds);
     EXPECT_NEAR(std::stod(fast_dds.told_since(begin, "released")->what), 2.25, 0.05);
     EXPECT_TRUE(scene.truth().back().released);
+    expect_no_replay_is_thrown(scene);
   }
   EXPECT_TRUE(thrown || !in_time) << all_of(scene.thrower());
 }
@@ -84,6 +91,46 @@ TEST(LiveTeam, programs_end_when_they_are_told_to) {
     EXPECT_EQ(member->status(), 0) << all_of(*member);
     EXPECT_THAT(all_of(*member), HasSubstr("end"));
   }
+}
+
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    std::ifstream file(process.path() / "stat");
+    std::string line;
+    if (!std::getline(file, line)) continue;
+    int found = 0;
+    char state = 0;
+    const auto words = line.substr(line.rfind(')') + 2);
+    if (std::sscanf(words.c_str(), "%c %d", &state, &found) != 2 || found != parent || state == 'Z') continue;
+    children.push_back(std::stoi(process.path().filename()));
+  }
+  return children;
+}
+
+bool runs(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  return std::getline(file, line) && line.at(line.rfind(')') + 2) != 'Z';
+}
+
+TEST(Kills, leave_no_program_behind_when_they_are_killed_themselves) {
+  const fs::path folder = fs::temp_directory_path() / ("hogline-killed-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  {
+    Member kills("kills", {HOGLINE_KILLS, HOGLINE_PROGRAM, "1", "7"}, folder);
+    kills.start();
+    const pid_t parent = kills.pid();
+    std::vector<pid_t> children;
+    EXPECT_TRUE(wait_until([&] { return (children = children_of(parent)).size() >= 2; }, patience));
+    kills.signal(SIGKILL);
+    EXPECT_TRUE(wait_until([&] { return std::ranges::none_of(children, runs); }, patience));
+    fs::remove_all(fs::temp_directory_path() / ("hogline-team-" + std::to_string(parent)));
+    for (const auto& segment : fs::directory_iterator("/dev/shm"))
+      if (segment.path().filename().string().starts_with("hogline-" + std::to_string(parent)))
+        fs::remove(segment.path());
+  }
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "tests/src/live/team_scene.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
@@ -20,6 +22,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int camera_hz = 15;
+constexpr int skip_hz = 4;
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
@@ -37,6 +40,15 @@ fs::path own_folder() {
   fs::create_directories(folder);
   return folder;
 }
+
+std::vector<TrueStone> stones_of(const json& line) {
+  std::vector<TrueStone> stones;
+  for (const json& stone : line.at("stones"))
+    stones.push_back({stone.at("x_m").get<double>(), stone.at("y_m").get<double>(), stone.at("thrown").get<bool>()});
+  return stones;
+}
+
+int strategist_port() { return 31000 + static_cast<int>(getpid()) % 10000; }
 
 Stamp stamp_of(double s) { return Stamp{from_seconds(s)}; }
 
@@ -64,36 +76,53 @@ std::vector<std::string> GrowingFile::news() {
   return lines;
 }
 
-Member::Member(std::string name, std::vector<std::string> command, const fs::path& folder)
-    : name_(std::move(name)), command_(std::move(command)), output_(folder / (name_ + ".jsonl")) {}
+Member::Member(std::string name, std::vector<std::string> command, const fs::path& folder,
+               std::vector<std::string> environment)
+    : name_(std::move(name)),
+      command_(std::move(command)),
+      environment_(std::move(environment)),
+      output_(folder / (name_ + ".jsonl")) {}
 
 Member::~Member() { end(); }
 
+// Between fork and exec nothing may be called but what a signal handler may call.
 void Member::start() {
   if (running()) return;
-  std::vector<char*> argv;
+  std::vector<char*> argv, envp;
   for (std::string& word : command_) argv.push_back(word.data());
+  for (std::string& word : environment_) envp.push_back(word.data());
+  for (char** word = environ; *word != nullptr; ++word) envp.push_back(*word);
   argv.push_back(nullptr);
+  envp.push_back(nullptr);
   int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_.path().c_str(), O_WRONLY | O_CREAT | O_APPEND,
-                                   0644);
-  const int error = posix_spawnp(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  constexpr int appending = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
+  const int output = open(output_.path().c_str(), appending, 0644);
+  const int errors = open((output_.path() + ".err").c_str(), appending, 0644);
+  if (output < 0 || errors < 0 || pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), name_);
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (pid_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const bool orphan = getppid() != parent;
+    if (!orphan && dup2(pipe_ends[0], STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 &&
+        dup2(errors, STDERR_FILENO) >= 0)
+      execvpe(argv[0], argv.data(), envp.data());
+    _exit(127);
+  }
   close(pipe_ends[0]);
+  close(output);
+  close(errors);
   if (input_ >= 0) close(input_);
   input_ = pipe_ends[1];
   status_ = -1;
-  if (error != 0) throw std::system_error(error, std::generic_category(), command_[0]);
 }
 
 bool Member::running() {
   if (pid_ < 0) return false;
   int wait_status = 0;
-  if (waitpid(pid_, &wait_status, WNOHANG) == 0) return true;
+  if (waitpid(pid_, &wait_status, WNOHANG) == 0 || WIFSTOPPED(wait_status)) return true;
   status_ = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
   pid_ = -1;
   return false;
@@ -135,50 +164,123 @@ std::optional<Told> Member::told_since(Stamp since, const std::string& event) {
   return std::nullopt;
 }
 
-TeamScene::TeamScene(const std::string& hogline)
-    : folder_(own_folder()),
+std::string all_of(Member& member) {
+  std::string text;
+  for (const Told& t : member.told()) text += member.name() + ": " + t.event + ": " + t.what + "\n";
+  return text;
+}
+
+bool is_lateness(const std::string& why) {
+  constexpr std::array<const char*, 9> words{
+      ": stale",     "control period: too long", "control loop did not run", "too old",  "no new set-point",
+      "no feedback", "no measurement arrives",   "refreshes came too late",  "is silent"};
+  return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
+}
+
+TeamScene::TeamScene(const std::string& hogline, const SceneOptions& options)
+    : hogline_(hogline),
+      options_(options),
+      folder_(own_folder()),
       domain_(1 + static_cast<std::uint32_t>(getpid()) % 200),
-      thrower_rig_(rig("thrower", text_of(fs::path(HOGLINE_SOURCE_DIR) / "config/rigs/thrower.yaml"))),
-      skip_rig_(rig("skip", text_of(thrower_rig_))),
-      rink_("rink",
-            {hogline, "rink", "--rig", thrower_rig_, "--camera-hz", std::to_string(camera_hz), "--truth",
-             folder_ / "truth.jsonl"},
-            folder_),
-      thrower_("thrower", {hogline, "thrower", "--rig", thrower_rig_}, folder_),
+      thrower_rig_(keep("thrower", thrower_rig())),
+      skip_rig_(keep("skip", options.whole_skip ? skip_rig() : order_rig())),
+      rink_("rink", rink_command(), folder_),
+      thrower_("thrower", {hogline, "thrower", "--rig", thrower_rig_}, folder_, options.thrower_environment),
       hand_("hand", {hogline, "hold", "--rig", thrower_rig_}, folder_),
-      skip_("skip", {hogline, "order", "--rig", skip_rig_, "--stay"}, folder_),
-      truth_file_(folder_ / "truth.jsonl") {}
+      skip_("skip", skip_command(), folder_, options.skip_environment),
+      strategist_("strategist",
+                  {"python3", HOGLINE_SOURCE_DIR "/tests/peers/digital_curling_client.py",
+                   std::to_string(strategist_port()), "client", "late"},
+                  folder_),
+      truth_file_(folder_ / "truth.jsonl") {
+  if (options.secure) make_keys("keys");
+}
+
+void TeamScene::make_keys(const std::string& name) const {
+  Member keys("keys",
+              {hogline_, "keys", "--out", folder_ / name, "--domain", std::to_string(domain_), "--observer", "coach"},
+              folder_);
+  keys.start();
+  wait_until([&] { return !keys.running(); }, 20s);
+  if (keys.status() != 0) throw std::runtime_error("no keys were made");
+}
+
+std::vector<std::string> TeamScene::rink_command() const {
+  std::vector<std::string> command{hogline_, "rink", "--rig", thrower_rig_, "--truth", folder_ / "truth.jsonl"};
+  for (const std::string& word : {std::string("--camera-hz"), std::to_string(camera_hz)}) command.push_back(word);
+  if (!options_.whole_skip) return command;
+  for (const std::string& word :
+       {std::string("--skip-rig"), skip_rig_, std::string("--skip-hz"), std::to_string(skip_hz)})
+    command.push_back(word);
+  return command;
+}
+
+std::vector<std::string> TeamScene::skip_command() const {
+  std::vector<std::string> command{hogline_, "order", "--rig", skip_rig_, "--stay"};
+  if (options_.whole_skip) command = {hogline_, "skip", "--live", "--rig", skip_rig_};
+  if (options_.strategist) {
+    for (const std::string& word :
+         {std::string("--thrower-rig"), thrower_rig_, std::string("--team0"), "dc:" + std::to_string(strategist_port()),
+          std::string("--thinking"), std::string("15"), std::string("--out"), (folder_ / "game").string()})
+      command.push_back(word);
+  }
+  command.insert(command.end(), options_.skip_arguments.begin(), options_.skip_arguments.end());
+  return command;
+}
 
 TeamScene::~TeamScene() {
-  for (Member* member : {&hand_, &skip_, &thrower_, &rink_}) member->end();
+  for (Member* member : {&hand_, &strategist_, &skip_, &thrower_, &rink_}) member->end();
   std::error_code problem;
   fs::remove_all(folder_, problem);
 }
 
 // This run's own bus, port, lines and domain.
-std::string TeamScene::rig(const std::string& name, const std::string& text) const {
-  std::string own = text;
+std::string TeamScene::thrower_rig() const {
+  std::string rig = own(text_of(fs::path(HOGLINE_SOURCE_DIR) / "config/rigs/thrower.yaml"));
   const auto number = static_cast<unsigned>(getpid());
-  if (name == "thrower") {
-    replace(own, "group: 239.74.163.2", "group: 239.75." + std::to_string(1 + number % 250) + ".1");
-    replace(own, "port: 50502", "port: " + std::to_string(21000 + number % 10000));
-    for (const char* camera : {"near", "low"})
-      replace(own, std::string("hogline-thrower-") + camera, "hogline-" + std::to_string(number) + "-" + camera);
-    replace(own, "/tmp/hogline-thrower-gyro", folder_ / "gyro");
-    replace(own, "/tmp/hogline-thrower-operator", folder_ / "operator");
-    replace(own, "domain: 7", "domain: " + std::to_string(domain_));
-  } else {
-    replace(own, "robot: thrower", "robot: skip");
-    replace(own, "peers: [skip]", "peers: [thrower]");
+  replace(rig, "group: 239.74.163.2", "group: 239.75." + std::to_string(1 + number % 250) + ".1");
+  replace(rig, "port: 50502", "port: " + std::to_string(21000 + number % 10000));
+  replace(rig, "/tmp/hogline-thrower-gyro", folder_ / "gyro");
+  replace(rig, "/tmp/hogline-thrower-operator", folder_ / "operator");
+  return rig;
+}
+
+std::string TeamScene::order_rig() const {
+  std::string rig = thrower_rig();
+  replace(rig, "robot: thrower", "robot: skip");
+  replace(rig, "peers: [skip]", "peers: [thrower]");
+  return rig;
+}
+
+std::string TeamScene::skip_rig() const {
+  std::string rig = own(text_of(fs::path(HOGLINE_SOURCE_DIR) / "config/rigs/skip_live.yaml"));
+  const auto number = static_cast<unsigned>(getpid());
+  replace(rig, "group: 239.74.163.3", "group: 239.75." + std::to_string(1 + number % 250) + ".2");
+  return rig;
+}
+
+std::string TeamScene::own(const std::string& rig) const {
+  std::string text = rig;
+  for (const char* camera : {"thrower-near", "thrower-low", "skip-near", "skip-far"}) {
+    const std::string segment = std::string("hogline-") + camera;
+    if (text.find(segment) == std::string::npos) continue;
+    replace(text, segment, "hogline-" + std::to_string(getpid()) + "-" + camera);
   }
+  replace(text, "domain: 7", "domain: " + std::to_string(domain_));
+  if (options_.secure) text += "\n  security_folder: " + (folder_ / "keys").string() + "\n";
+  return text;
+}
+
+std::string TeamScene::keep(const std::string& name, const std::string& rig) const {
   const fs::path path = folder_ / (name + ".yaml");
-  std::ofstream(path) << own;
+  std::ofstream(path) << rig;
   return path;
 }
 
 const std::vector<TrueMoment>& TeamScene::truth() {
   for (const std::string& line : truth_file_.news()) {
     const json j = json::parse(line, nullptr, false);
+    if (j.is_object() && j.contains("rest_ns")) rests_.push_back(stones_of(j));
     if (!j.is_object() || !j.contains("t_ns")) continue;
     const bool base = j.at("moves").get<bool>();
     truth_.push_back({.at = Stamp{Duration{j.at("t_ns").get<std::int64_t>()}},
@@ -194,6 +296,7 @@ const std::vector<TrueMoment>& TeamScene::truth() {
 
 bool TeamScene::set_up() {
   hand_.end();
+  strategist_.end();
   skip_.end();
   rink_.start();
   if (!wait_until([this] { return rink_.running() && !truth().empty() && now() - truth_.back().at < 1s; }, 30s))
@@ -210,8 +313,40 @@ bool TeamScene::set_up() {
   };
   if (!wait_until(thrower_waits, 30s)) return false;
   const Stamp asked = now();
-  rink_.say("again");
+  rink_.say("again 0");
   return wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s);
+}
+
+bool TeamScene::skip_is_heard() {
+  skip_.start();
+  const auto heard = [&] {
+    std::string last;
+    for (const Told& t : skip_.told())
+      if (t.event == "session" || t.event == "heard" || t.event == "silent") last = t.event;
+    return last == "heard";
+  };
+  return wait_until(heard, 30s);
+}
+
+bool TeamScene::skip_waits() {
+  if (!skip_is_heard()) return false;
+  const Stamp begin = now();
+  skip_.say("begin");
+  const auto waits = [&] {
+    return std::ranges::any_of(skip_.told(),
+                               [&](const Told& t) { return t.at >= begin && t.event == "state" && t.what == "wait"; });
+  };
+  return wait_until([&] { return waits() || skip_.told_since(begin, "stopped"); }, 30s) && waits();
+}
+
+bool TeamScene::begin_game() {
+  if (!skip_is_heard()) return false;
+  strategist_.end();
+  const Stamp begin = now();
+  skip_.say("play");
+  if (!wait_until([&] { return skip_.told_since(begin, "table").has_value(); }, 30s)) return false;
+  strategist_.start();
+  return wait_until([&] { return skip_.told_since(begin, "asked").has_value(); }, 30s);
 }
 
 }  // namespace hogline::live_test

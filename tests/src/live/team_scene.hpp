@@ -38,6 +38,13 @@ struct TrueMoment {
   bool released = false;
 };
 
+/// A stone that lies on the sheet when all have come to rest, by the rink's truth: e of the skip.
+struct TrueStone {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  bool thrown = false;
+};
+
 /// Lines of a file that grows, each read once.
 class GrowingFile {
  public:
@@ -51,10 +58,12 @@ class GrowingFile {
   std::string rest_;
 };
 
-/// A program of the team: its stdout goes to a file, its stdin is a pipe.
+/// A program of the team: its stdout and stderr go to files, its stdin is a pipe. It dies with whoever started it,
+/// however that ends.
 class Member {
  public:
-  Member(std::string name, std::vector<std::string> command, const std::filesystem::path& folder);
+  Member(std::string name, std::vector<std::string> command, const std::filesystem::path& folder,
+         std::vector<std::string> environment = {});
   ~Member();
   Member(const Member&) = delete;
   Member& operator=(const Member&) = delete;
@@ -62,6 +71,7 @@ class Member {
   /// No effect while it runs.
   void start();
   bool running();
+  pid_t pid() const { return pid_; }
   void signal(int number);
   /// Asks it to end, and kills it when it does not.
   void end();
@@ -77,6 +87,7 @@ class Member {
  private:
   std::string name_;
   std::vector<std::string> command_;
+  std::vector<std::string> environment_;  ///< beside our own
   GrowingFile output_;
   std::vector<Told> told_;
   pid_t pid_ = -1;
@@ -84,38 +95,77 @@ class Member {
   int status_ = -1;
 };
 
-/// Rink, thrower, its operator's hand, and a skip that orders one shot and stays: with lines of this run's own.
+struct SceneOptions {
+  bool secure = false;  ///< the robots have keys that `hogline keys` makes
+  bool whole_skip =
+      false;  ///< the skip is `hogline skip --live`; else `hogline order`, which orders one shot and stays
+  std::vector<std::string> thrower_environment{};
+  std::vector<std::string> skip_environment{};
+  std::vector<std::string> skip_arguments{};
+  bool strategist =
+      false;  ///< a Digital Curling client decides for the first team, and thinks until it is told to move
+};
+
+/// All that it has told, a line each, for whoever wants to know why.
+std::string all_of(Member& member);
+
+/// What a machine that is too slow for the rink's clock makes of a throw: it is given up, for this reason.
+bool is_lateness(const std::string& why);
+
+/// Rink, thrower, its operator's hand, and a skip: with lines of this run's own.
 class TeamScene {
  public:
   /// `hogline`: the program. The folder is made and removed.
-  explicit TeamScene(const std::string& hogline);
+  explicit TeamScene(const std::string& hogline, const SceneOptions& options = {});
   ~TeamScene();
 
   Member& rink() { return rink_; }
   Member& thrower() { return thrower_; }
   Member& hand() { return hand_; }
   Member& skip() { return skip_; }
+  Member& strategist() { return strategist_; }
   std::uint32_t domain() const { return domain_; }
+  const std::string& skip_rig_file() const { return skip_rig_; }
+  /// Keys of a team of this domain, in a folder of this name; also those of a coach.
+  void make_keys(const std::string& name) const;
   const std::filesystem::path& folder() const { return folder_; }
 
   /// The truth of all that has happened; grows.
   const std::vector<TrueMoment>& truth();
+  /// What lay where, each time that all had come to rest; as far as truth() has been read.
+  const std::vector<std::vector<TrueStone>>& rests() const { return rests_; }
   /// The robot stands in the hack with a stone, everybody is there, nobody holds the switch.
   bool set_up();
+  /// The skip that is one has looked, waits for a stone, and hears the thrower. False: it does not come to that.
+  bool skip_waits();
+  /// The skip plays, and the strategist sits at its table. False: it does not come to that.
+  bool begin_game();
 
  private:
-  std::string rig(const std::string& name, const std::string& text) const;
+  bool skip_is_heard();
+  std::string thrower_rig() const;
+  std::string order_rig() const;
+  std::string skip_rig() const;
+  std::string keep(const std::string& name, const std::string& rig) const;
+  std::vector<std::string> rink_command() const;
+  std::vector<std::string> skip_command() const;
+  /// This run's own words in the place of the rig's.
+  std::string own(const std::string& rig) const;
 
+  std::string hogline_;
+  SceneOptions options_;
   std::filesystem::path folder_;
   std::uint32_t domain_;
   std::string thrower_rig_;
-  std::string skip_rig_;
+  std::string skip_rig_;  ///< of whoever orders
   Member rink_;
   Member thrower_;
   Member hand_;
   Member skip_;
+  Member strategist_;
   GrowingFile truth_file_;
   std::vector<TrueMoment> truth_;
+  std::vector<std::vector<TrueStone>> rests_;
 };
 
 }  // namespace hogline::live_test
