@@ -37,7 +37,7 @@ def main():
         ("stones' places, seen less true: RMS, worst", f"{1e3 * math.sqrt(s['square_m2'] / max(1, s['places'])):.1f} mm, {1e3 * worst:.0f} mm"),
         ("stones given away (no such shot); attempts repeated; throws with a remark of the skip's",
          f"{s['given_away']}; {s['repeated']}; {s['remarked']}"),
-        ("a turn on the rink's clock", f"{s['simulated_s'] / s['throws']:.0f} s"),
+        ("a turn on the rink's clock", f"{s['simulated_s'] / s['turns']:.0f} s"),
         ("times faster than real time, on this machine", f"{s['simulated_s'] / s['wall_s']:.1f}"),
     ]
     print("| figure | value |\n|---|--:|")

@@ -35,11 +35,21 @@ int print_end(const game::Referee& referee) {
   return referee.phase() == game::RefereePhase::over ? ExitStatus::success : ExitStatus::not_achieved;
 }
 
+int tell_no_game(const std::string& failure) {
+  fmt::print(stderr, "stopped before the first end: {}\n", failure);
+  return ExitStatus::not_achieved;
+}
+
 int play_on_outcome_model(const GameOptions& options) {
   const servo::ThrowerSkill skill = practice_skill();
   const game::SimulatedSheet sheet = game::any_sheet(options.team.seed);
   game::SimulatedThrows throws(sheet, skill, servo::IceModel({}), options.team.seed);
-  GameTable table(options, *sheet.width_m, skill, [&throws] { return throws.ice(); });
+  const auto ice = [&throws] { return throws.ice(); };
+  GameTable table(options, *sheet.width_m, skill, ice);
+  if (const std::string failure = table.practise(options, skill, ice, throws); !failure.empty()) {
+    table.close();
+    return tell_no_game(failure);
+  }
   game::Referee referee(table.setting(), table.strategists(), throws, table.journal());
   table.play(referee);
   table.close();
@@ -53,8 +63,12 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; is the disk full?", path.string()));
 }
 
+/// `end`: -1 before the first.
 void tell_throw(const TurnRecord& r, int end, int shot) {
-  fmt::print(stderr, "end {:2} shot {:2}: {:10} ", end + 1, shot + 1, r.turn.decision.plan);
+  if (end < 0)
+    fmt::print(stderr, "practice {:2}:                  ", shot + 1);
+  else
+    fmt::print(stderr, "end {:2} shot {:2}: {:10} ", end + 1, shot + 1, r.turn.decision.plan);
   if (r.lesson) fmt::print(stderr, "{:.2f} m from where it was foretold", r.lesson->error_m());
   if (r.report.seen.struck) fmt::print(stderr, "struck");
   if (r.report.end != game::ThrowEnd::thrown) fmt::print(stderr, "not thrown: {}", r.report.reason);
@@ -74,18 +88,22 @@ int play_with_robots(const GameOptions& options) {
   TruthCheck* check = nullptr;
   const game::Referee* told = nullptr;
   RobotsThrow robots(team, skill, servo::IceModel({}), [&](const TurnRecord& record) {
-    check->record(record);
+    const int end = told ? told->state().end : -1;
+    const int shot = told ? told->state().shot : static_cast<int>(records.size());
+    if (check) check->record(record);
     records.push_back(record);
-    rows += throw_row(record, told->state().end, told->state().shot);
-    tell_throw(record, told->state().end, told->state().shot);
+    rows += throw_row(record, end, shot);
+    tell_throw(record, end, shot);
   });
-  GameTable table(options, request.scenario.sheet.width_m, skill, [&robots] { return robots.ice(); });
+  const auto ice = [&robots] { return robots.ice(); };
+  GameTable table(options, request.scenario.sheet.width_m, skill, ice);
   TruthCheck truth(table.setting(), table.journal());
-  check = &truth;
-  game::Referee referee(table.setting(), table.strategists(), robots, truth);
-  told = &referee;
   fmt::print(stderr, "on the simulated rink: no device of the rigs is opened\n");
-  table.play(referee);
+  const std::string failure = table.practise(options, skill, ice, robots);
+  game::Referee referee(table.setting(), table.strategists(), robots, truth);
+  check = &truth;
+  told = &referee;
+  if (failure.empty()) table.play(referee);
   table.close();
 
   const std::filesystem::path out(options.out);
@@ -98,7 +116,7 @@ int play_with_robots(const GameOptions& options) {
   write(out / "summary.md", summary);
   write(out / "figures.json", figures_json(truth.figures(), records));
   fmt::print(stderr, "\n{}\n", summary);
-  return print_end(referee);
+  return failure.empty() ? print_end(referee) : tell_no_game(failure);
 }
 
 }  // namespace

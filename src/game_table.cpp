@@ -15,6 +15,7 @@
 
 #include "hw/clock.hpp"
 #include "src/game/built_in_strategist.hpp"
+#include "src/game/practice.hpp"
 
 namespace hogline {
 namespace {
@@ -124,6 +125,17 @@ game::GameJournal::PlayerOrders GameTable::player_orders() const {
   for (const std::size_t side : {0u, 1u})
     orders[side] = clients_[side] ? clients_[side]->player_order() : std::array{0, 1, 2, 3};
   return orders;
+}
+
+std::string GameTable::practise(const TableOptions& options, const servo::ThrowerSkill& skill,
+                                const std::function<servo::IceModel()>& ice, game::StoneThrower& thrower) {
+  const hw::SteadyClock clock;
+  game::Practice practice(
+      options.practice, skill, ice, strategists(), thrower,
+      [this](int draw, const game::Turn&, const game::ThrowReport& report) { journal_.practised(draw, report); });
+  while (!practice.over()) practice.step(clock.now());
+  if (!practice.failure().empty()) journal_.stopped(practice.failure());
+  return practice.failure();
 }
 
 void GameTable::play(game::Referee& referee, const std::function<bool()>& enough) {

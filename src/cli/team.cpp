@@ -86,6 +86,10 @@ void add_game(CLI::App& app, Chosen& chosen) {
   game->add_option("--ends", options.ends, "how many, without extra ones")
       ->capture_default_str()
       ->check(CLI::Range(1, 20));
+  game->add_option("--practice", options.practice,
+                   "draws before the first end, from which the ice is learnt; none counts")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 16));
   game->add_option("--team0", options.first, "who decides for the first team: built-in, or dc:PORT")
       ->capture_default_str()
       ->check(known_strategist);

@@ -87,7 +87,8 @@ std::string figures_table(const TruthFigures& f, const std::vector<TurnRecord>& 
   row("stones' places, seen less true, RMS / worst [mm]",
       fmt::format("{:.1f} / {:.1f}", f.places > 0 ? 1e3 * std::sqrt(f.square_m2 / f.places) : 0.0, 1e3 * f.worst_m));
   row("simulated s a throw; times real time",
-      fmt::format("{:.1f}; {:.1f}", simulated_s / std::max(1, f.throws), wall_s > 0.0 ? simulated_s / wall_s : 0.0));
+      fmt::format("{:.1f}; {:.1f}", simulated_s / std::max(1.0, static_cast<double>(records.size())),
+                  wall_s > 0.0 ? simulated_s / wall_s : 0.0));
   return t;
 }
 
@@ -96,11 +97,13 @@ std::string figures_json(const TruthFigures& f, const std::vector<TurnRecord>& r
   for (const TurnRecord& r : records) simulated_s += r.simulated_s, wall_s += r.wall_s;
   const auto measures = std::ranges::count(f.disagreements, true, &Disagreement::a_measure);
   return fmt::format(
-      "{{\"ends\":{},\"throws\":{},\"disagreements\":{},\"too_close_disagreements\":{},\"too_close_ends\":{},"
+      "{{\"turns\":{},\"ends\":{},\"throws\":{},\"disagreements\":{},\"too_close_disagreements\":{},\"too_close_ends\":"
+      "{},"
       "\"given_away\":{},\"repeated\":{},\"remarked\":{},\"struck\":{},\"struck_wrong\":{},\"places\":{},"
       "\"square_m2\":{},\"worst_m\":{},\"simulated_s\":{},\"wall_s\":{}}}\n",
-      f.ends, f.throws, f.disagreements.size() - static_cast<std::size_t>(measures), measures, f.measures, f.given_away,
-      f.repeated, f.unfollowed, f.collisions, f.struck_wrong, f.places, f.square_m2, f.worst_m, simulated_s, wall_s);
+      records.size(), f.ends, f.throws, f.disagreements.size() - static_cast<std::size_t>(measures), measures,
+      f.measures, f.given_away, f.repeated, f.unfollowed, f.collisions, f.struck_wrong, f.places, f.square_m2,
+      f.worst_m, simulated_s, wall_s);
 }
 
 std::string ice_table(const std::vector<TurnRecord>& records) {

@@ -10,7 +10,7 @@ namespace hogline {
 
 /// Keys of throws.csv, with the line's end.
 std::string throw_header();
-/// `end` and `shot` from 0.
+/// `end` and `shot` from 0; end -1: practice before the first.
 std::string throw_row(const TurnRecord& record, int end, int shot);
 
 /// The figures in words: a Markdown table.

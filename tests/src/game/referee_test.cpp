@@ -25,6 +25,7 @@ class Scripted : public hw::Strategist {
     state_.phase = hw::StrategistPhase::waiting;
   }
   void tell(const servo::GameUpdate& update, Stamp) override {
+    if (state_.phase == hw::StrategistPhase::failed) return;
     const auto next = next_team(update.state);
     state_.decision.reset();
     state_.phase = !next           ? hw::StrategistPhase::over
@@ -118,6 +119,20 @@ TEST(Referee, AStrategistThatFailsStopsTheGameAlsoInTheOthersTurn) {
   EXPECT_EQ(table.referee.phase(), RefereePhase::stopped);
   EXPECT_EQ(table.witness.stops, std::vector<std::string>{"it vanished"});
   EXPECT_TRUE(table.witness.reports.empty());
+}
+
+TEST(Referee, AStoneThatRunsIsFollowedToItsEndThoughAStrategistHasFailed) {
+  Table table;
+  table.steps(1);
+  table.first.decide(draw);
+  table.steps(1);
+  ASSERT_EQ(table.referee.phase(), RefereePhase::throwing);
+  table.second.end(hw::StrategistPhase::failed, "it vanished");
+  table.steps(2);
+  EXPECT_EQ(table.referee.phase(), RefereePhase::stopped);
+  EXPECT_EQ(table.referee.reason(), "it vanished");
+  ASSERT_EQ(table.witness.reports.size(), 1u);
+  EXPECT_EQ(table.witness.reports[0].end, ThrowEnd::thrown);
 }
 
 using nlohmann::json;
