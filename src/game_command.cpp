@@ -63,6 +63,26 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; is the disk full?", path.string()));
 }
 
+/// A table that has each row as soon as there is one: who ends the program has what was thrown till then.
+class RowFile {
+ public:
+  RowFile(const std::filesystem::path& path, const std::string& header) : path_(path) {
+    std::filesystem::create_directories(path.parent_path());
+    stream_.open(path, std::ios::binary);
+    add(header);
+    if (!stream_) throw std::runtime_error(path.string() + ": can not be written; check the folder");
+  }
+  void add(const std::string& row) { stream_ << row << std::flush; }
+  void close() {
+    stream_.close();
+    if (!stream_) throw std::runtime_error(path_.string() + ": can not be written; is the disk full?");
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
 /// `end`: -1 before the first.
 void tell_throw(const TurnRecord& r, int end, int shot) {
   if (end < 0)
@@ -84,7 +104,8 @@ int play_with_robots(const GameOptions& options) {
   SimulatedTeam team(request);
   const servo::ThrowerSkill skill = skill_of(request.thrower);
   std::vector<TurnRecord> records;
-  std::string rows = throw_header();
+  const std::filesystem::path out(options.out);
+  RowFile rows(out / "throws.csv", throw_header());
   TruthCheck* check = nullptr;
   const game::Referee* told = nullptr;
   RobotsThrow robots(team, skill, servo::IceModel({}), [&](const TurnRecord& record) {
@@ -92,7 +113,7 @@ int play_with_robots(const GameOptions& options) {
     const int shot = told ? told->state().shot : static_cast<int>(records.size());
     if (check) check->record(record);
     records.push_back(record);
-    rows += throw_row(record, end, shot);
+    rows.add(throw_row(record, end, shot));
     tell_throw(record, end, shot);
   });
   const auto ice = [&robots] { return robots.ice(); };
@@ -106,8 +127,7 @@ int play_with_robots(const GameOptions& options) {
   if (failure.empty()) table.play(referee);
   table.close();
 
-  const std::filesystem::path out(options.out);
-  write(out / "throws.csv", rows);
+  rows.close();
   std::string summary = figures_table(truth.figures(), records) + "\n" + ice_table(records);
   for (const Disagreement& d : truth.figures().disagreements) {
     summary += fmt::format("\nend {}, shot {}: {}, decided by {:.0f} mm{}\n", d.end + 1, d.shot + 1, d.what,

@@ -110,8 +110,8 @@ void GameTable::seat(std::size_t side, const TableOptions& options, const servo:
   config.session.offer = offer_;
   config.session.connect_deadline = from_seconds(options.connect_s);
   auto client = std::make_unique<DigitalCurlingStrategist>(config);
-  fmt::print(stderr, "{} waits for its client at {}:{}\n", hw::digital_curling::team_name(team), options.address,
-             client->port());
+  fmt::print(stderr, "{} waits for its client at {}:{}, {:.0f} s at most\n", hw::digital_curling::team_name(team),
+             options.address, client->port(), options.connect_s);
   clients_[side] = client.get();
   strategists_[side] = std::move(client);
 }

@@ -20,7 +20,14 @@ const char* word(game::ThrowEnd end) {
 
 double sigma_of(const PlaceCovariance& c) { return std::sqrt(c.xx_m2 + c.yy_m2); }
 
-/// Seen less true, of the stones that lie in both.
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
 double worst_place_m(const TurnRecord& r) {
   double worst = 0.0;
   for (const std::size_t side : {0u, 1u}) {
@@ -31,14 +38,6 @@ double worst_place_m(const TurnRecord& r) {
   }
   return worst;
 }
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-}  // namespace
 
 std::string throw_header() {
   return "end,shot,team,outcome,attempts,plan,speed_mps,heading_rad,release_place_mm,release_speed_mps,"

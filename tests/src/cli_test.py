@@ -485,7 +485,7 @@ class Game(unittest.TestCase):
         self.assertEqual(json.loads(result.stdout.splitlines()[-1])["event"], "stopped")
 
     def test_wrong_uses(self):
-        for words in (["--team0", "dc:70000"], ["--team0", "somebody"], ["--ends", "0"], ["--thinking", "0"],
+        for words in (["--team0", "dc:70000"], ["--team0", "somebody"], ["--ends", "0"], ["--thinking", "0"], ["--practice", "17"],
                       ["--team0", "dc:0", "--address", "localhost"]):
             self.assertEqual(self.game(*words).returncode, 2, words)
         with socket.socket() as taken:
@@ -519,7 +519,7 @@ class Turn(unittest.TestCase):
         self.assertEqual({**told, "wall_s": 0}, {**again, "wall_s": 0}, "the same seed is the same turn")
 
     def test_wrong_uses(self):
-        for words in (["--stones", "16"], ["--seer", "somebody"], ["--strategist", "nobody"], ["--scenario", "none.yaml"]):
+        for words in (["--skip-hz", "nan"], ["--skip-hz", "1"], ["--skip-hz", "121"], ["--stones", "16"], ["--seer", "somebody"], ["--strategist", "nobody"], ["--scenario", "none.yaml"]):
             self.assertEqual(run("turn", *words).returncode, 2, words)
 
 
