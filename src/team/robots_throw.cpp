@@ -274,10 +274,12 @@ void RobotsThrow::learn() {
   const servo::ThrowResult& result = record_.followed->result;
   IceLesson lesson{.foretold = {}, .rest = {}, .before = ice_.estimate(), .after = {}};
   const Eigen::Matrix3d ice_covariance = ice_.throw_covariance();
-  if (result.track) ice_.learn(servo::from_other_end(*result.track));
+  const bool touch_not_seen =
+      record_.report.seen.struck && result.collisions.empty();  // its track is not free to the end
+  if (result.track && !touch_not_seen) ice_.learn(servo::from_other_end(*result.track));
   lesson.after = ice_.estimate();
   const auto& thrown = record_.report.seen.lying.stones[side_of(record_.turn.team)][record_.turn.stone];
-  if (!record_.release || !thrown || !result.collisions.empty()) return;
+  if (!record_.release || !thrown || record_.report.seen.struck) return;
   const servo::SlidingStone stone = servo::released(
       {.speed_mps = record_.release->speed_mps,
        .heading_rad = record_.release->heading_rad,
