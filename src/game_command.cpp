@@ -99,6 +99,11 @@ void tell_throw(const TurnRecord& r, int end, int shot) {
   std::fflush(stderr);
 }
 
+void tell_stage(double t_s, const std::string& what) {
+  fmt::print(stderr, "{:7.2f} s  {}\n", t_s, what);
+  std::fflush(stderr);
+}
+
 int play_with_robots(const GameOptions& options) {
   const TeamRequest request = team_request(options.team);
   SimulatedTeam team(request);
@@ -108,14 +113,19 @@ int play_with_robots(const GameOptions& options) {
   RowFile rows(out / "throws.csv", throw_header());
   TruthCheck* check = nullptr;
   const game::Referee* told = nullptr;
-  RobotsThrow robots(team, skill, servo::IceModel({}), [&](const TurnRecord& record) {
-    const int end = told ? told->state().end : -1;
-    const int shot = told ? told->state().shot : static_cast<int>(records.size());
-    if (check) check->record(record);
-    records.push_back(record);
-    rows.add(throw_row(record, end, shot));
-    tell_throw(record, end, shot);
-  });
+  RobotsThrow::Progress progress;  // by the oracle a throw is over sooner than it is told
+  if (request.eyes == Eyes::vision) progress = tell_stage;
+  RobotsThrow robots(
+      team, skill, servo::IceModel({}),
+      [&](const TurnRecord& record) {
+        const int end = told ? told->state().end : -1;
+        const int shot = told ? told->state().shot : static_cast<int>(records.size());
+        if (check) check->record(record);
+        records.push_back(record);
+        rows.add(throw_row(record, end, shot));
+        tell_throw(record, end, shot);
+      },
+      progress);
   const auto ice = [&robots] { return robots.ice(); };
   GameTable table(options, request.scenario.sheet.width_m, skill, ice);
   TruthCheck truth(table.setting(), table.journal());
