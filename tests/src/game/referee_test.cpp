@@ -165,6 +165,32 @@ struct OwnGame {
   Referee referee;
 };
 
+/// What the journal says of an end in which the second team's stone lies so much farther from the tee than the first's.
+json end_of(double farther_m, double seen_sigma_m) {
+  json told;
+  std::ostringstream record;
+  hw::digital_curling::GameLog log(record, [] { return std::string(); });
+  GameJournal journal([&](const std::string& line) { told = json::parse(line); }, log, {}, {},
+                      [] { return GameJournal::PlayerOrders{}; });
+  servo::Judged judged;
+  judged.board.stones[0][0] = servo::BoardStone{0.5, servo::in_sheet::tee_y_m, 0.0};
+  judged.board.stones[1][0] = servo::BoardStone{-0.5 - farther_m, servo::in_sheet::tee_y_m, 0.0};
+  judged.end = servo::EndScore{1, 0};
+  ThrowReport report;
+  report.end = ThrowEnd::thrown;
+  report.seen_sigma_m = seen_sigma_m;
+  journal.thrown({}, report, judged);
+  return told;
+}
+
+// On ice an official measures what nobody can tell by eye: the skip has to say that it can not.
+TEST(GameJournal, SaysWhichEndsAreToBeMeasured) {
+  EXPECT_TRUE(end_of(0.002, 0.003)["measure"]);
+  EXPECT_NEAR(end_of(0.002, 0.003)["margin_m"].get<double>(), 0.002, 1e-9);
+  EXPECT_FALSE(end_of(0.002, 0.0005)["measure"]) << "seen well enough";
+  EXPECT_FALSE(end_of(0.05, 0.003)["measure"]);
+}
+
 double from_tee(const json& stone) {
   return std::hypot(stone["x_m"].get<double>(), stone["y_m"].get<double>() - 38.405);
 }
