@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "servo/game/rules.hpp"
 
@@ -17,7 +18,8 @@ constexpr double guard_reach_m = 0.35;                     // aside of its line 
 constexpr std::array<Place, 5> draws_to{
     Place{0.0, 0.0}, {0.35, 0.0}, {-0.35, 0.0}, {0.0, -0.7}, {0.0, 0.6}};  // from the tee, the best first
 constexpr double opening_guard_y_m = 34.3;                                 // half-way between hog line and house
-constexpr double corner_m = 1.1;                                           // of a guard that leaves the middle open
+constexpr std::array<double, 1> middle_m{0.0};                             // of the sheet: where guards lie
+constexpr std::array<double, 2> corners_m{1.1, -1.1};                      // ... that leave the middle open
 constexpr double sure_enough_m = 1.0;  // a stone less sure might not come to lie before the house
 constexpr int safe_lead = 2;           // points; who has them wants few stones about
 constexpr std::array<double, 6> ways_out_m{1.9, -1.9, 1.2, -1.2, 0.6, -0.6};
@@ -104,7 +106,8 @@ std::optional<SmallAnswer> opening(const GameState& state, const ThrowerSkill& s
   const bool hammer = state.hammer == team;
   if (state.shot > 1 || shot_stone(state.board) || lead_of(team, state) >= (hammer ? 1 : safe_lead))
     return std::nullopt;
-  for (const double x : hammer ? std::array{corner_m, -corner_m} : std::array{0.0, 0.0}) {
+  const auto aside = hammer ? std::span<const double>(corners_m) : std::span<const double>(middle_m);
+  for (const double x : aside) {
     const SmallAnswer guard = draw_to(SmallPlan::guard, {x, opening_guard_y_m}, state.board, skill, ice);
     if (guard.ok && guard.sigma_m < sure_enough_m) return guard;
   }
