@@ -24,6 +24,7 @@ class Game:
         seats = [word for team in misbehaviours for word in ("--" + team, "dc:0")]
         self.program = subprocess.Popen([HOGLINE, "game", "--ends", "1", "--out", self.folder.name, *seats, *words],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        test.addCleanup(self.program.kill)  # where a test has failed before its end
         self.clients = {}
         self.stderr = ""
         for team, kind in misbehaviours.items():
@@ -41,7 +42,7 @@ class Game:
 
     def end(self):
         """The exit status, the events, and what each client said."""
-        out, err = self.program.communicate(timeout=200)
+        out, err = self.program.communicate(timeout=280)
         self.stderr += err
         told = {}
         for team, client in self.clients.items():
