@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts games of both robots together: ends_table.py FOLDER... (each with figures.json and throws.csv). Markdown to stdout."""
+"""Puts games of both robots together: ends_table.py FOLDER... (each with figures.json, throws.csv and game.jsonl). Markdown to stdout."""
 import csv
 import json
 import math
@@ -20,6 +20,12 @@ def ice_rows(throws):
         yield f"| {name} | {len(told)} | {error:.2f} | {sigma:.2f} |"
 
 
+def called_measures(folder):
+    """Ends of which the skip itself says that the stones would have to be measured."""
+    with (folder / "game.jsonl").open(encoding="utf-8") as lines:
+        return sum(1 for line in lines if json.loads(line).get("measure"))
+
+
 def main():
     folders = [pathlib.Path(word) for word in sys.argv[1:]]
     if not folders:
@@ -34,10 +40,11 @@ def main():
         ("**disagreements** of score, fouls or stones in play with the truth", f"**{s['disagreements']}**"),
         ("... and such as truth decides by less than 2 cm", str(s["too_close_disagreements"])),
         ("ends whose score truth decides by less than 2 cm", str(s["too_close_ends"])),
+        ("ends of which the skip says that they are to be measured", str(sum(map(called_measures, folders)))),
         ("stones' places, seen less true: RMS, worst", f"{1e3 * math.sqrt(s['square_m2'] / max(1, s['places'])):.1f} mm, {1e3 * worst:.0f} mm"),
         ("stones given away (no such shot); attempts repeated; throws with a remark of the skip's",
          f"{s['given_away']}; {s['repeated']}; {s['remarked']}"),
-        ("a turn on the rink's clock", f"{s['simulated_s'] / s['throws']:.0f} s"),
+        ("a turn on the rink's clock", f"{s['simulated_s'] / s['turns']:.0f} s"),
         ("times faster than real time, on this machine", f"{s['simulated_s'] / s['wall_s']:.1f}"),
     ]
     print("| figure | value |\n|---|--:|")

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "servo/game/rules.hpp"
 
@@ -16,6 +17,11 @@ constexpr double guard_ahead_m = 2.6;                      // of the stone that 
 constexpr double guard_reach_m = 0.35;                     // aside of its line at which a stone still guards
 constexpr std::array<Place, 5> draws_to{
     Place{0.0, 0.0}, {0.35, 0.0}, {-0.35, 0.0}, {0.0, -0.7}, {0.0, 0.6}};  // from the tee, the best first
+constexpr double opening_guard_y_m = 34.3;                                 // half-way between hog line and house
+constexpr std::array<double, 1> middle_m{0.0};                             // of the sheet: where guards lie
+constexpr std::array<double, 2> corners_m{1.1, -1.1};                      // ... that leave the middle open
+constexpr double sure_enough_m = 1.0;  // a stone less sure might not come to lie before the house
+constexpr int safe_lead = 2;           // points; who has them wants few stones about
 constexpr std::array<double, 6> ways_out_m{1.9, -1.9, 1.2, -1.2, 0.6, -0.6};
 
 struct Named {
@@ -91,6 +97,31 @@ std::vector<BoardStone> targets(const Board& board, Team team) {
   return stones;
 }
 
+int lead_of(Team team, const GameState& state) { return total(state, team) - total(state, opponent_of(team)); }
+
+/// The end's first two throws: five throws long nobody may take out what lies before the house. Without the hammer
+/// the middle is guarded, with it kept open; not by who would rather have the house empty, nor on ice not yet known.
+std::optional<SmallAnswer> opening(const GameState& state, const ThrowerSkill& skill, const IceModel& ice) {
+  const Team team = *next_team(state);
+  const bool hammer = state.hammer == team;
+  if (state.shot > 1 || shot_stone(state.board) || lead_of(team, state) >= (hammer ? 1 : safe_lead))
+    return std::nullopt;
+  const auto aside = hammer ? std::span<const double>(corners_m) : std::span<const double>(middle_m);
+  for (const double x : aside) {
+    const SmallAnswer guard = draw_to(SmallPlan::guard, {x, opening_guard_y_m}, state.board, skill, ice);
+    if (guard.ok && guard.sigma_m < sure_enough_m) return guard;
+  }
+  return std::nullopt;
+}
+
+/// The end's last throw to an empty house: a single point would give the hammer away, and there are ends to come.
+/// Who leads in the last one has won without.
+bool better_blank(const GameState& state) {
+  const bool last_end = state.end + 1 >= static_cast<int>(state.scores[0].size());
+  if (state.shot != stones_an_end - 1 || shot_stone(state.board)) return false;
+  return !last_end || lead_of(*next_team(state), state) > 0;
+}
+
 bool guarded(const BoardStone& stone, const Board& board) {
   const auto guards = [&](const std::optional<BoardStone>& other) {
     return other && other->y_m < stone.y_m - 1.0 && std::abs(other->x_m - stone.x_m) < guard_reach_m;
@@ -110,6 +141,7 @@ SmallAnswer small_strategy(const GameState& state, const ThrowerSkill& skill, co
   const Board& board = state.board;
   const auto shot = shot_stone(board);
   SmallAnswer tried;
+  if (auto guard = opening(state, skill, ice)) return *guard;
   const auto take_out_one_of = [&](const std::vector<BoardStone>& stones) {
     for (const BoardStone& stone : stones)
       for (const double speed : hit_speeds_mps)
@@ -125,14 +157,20 @@ SmallAnswer small_strategy(const GameState& state, const ThrowerSkill& skill, co
     if (tried = draw_to(SmallPlan::guard, place, board, skill, ice); tried.ok) return tried;
   }
 
+  const auto thrown_away = [&] {
+    for (const double x : ways_out_m)
+      if (tried = throw_away(x, board, skill, ice); tried.ok) return true;
+    return false;
+  };
+  if (better_blank(state) && thrown_away()) return tried;
+
   for (const Place& offset : draws_to) {
     const Place place{offset.x_m, in_sheet::tee_y_m + offset.y_m};
     if (tried = draw_to(SmallPlan::draw, place, board, skill, ice); tried.ok) return tried;
   }
 
   if (take_out_one_of(targets(board, team))) return tried;
-  for (const double x : ways_out_m)
-    if (tried = throw_away(x, board, skill, ice); tried.ok) return tried;
+  thrown_away();
   return tried;
 }
 

@@ -1,5 +1,6 @@
-// A small strategist that knows the ice it plays on: it takes the other team's shot stone out, guards its own, and
-// draws to the tee. Pure; no look-ahead. Frame s.
+// A small strategist that knows the ice it plays on: it opens an end with a guard, takes the other team's shot
+// stone out, guards its own, draws to the tee, and keeps the hammer where the house is empty. Pure; no look-ahead.
+// Frame s.
 #pragma once
 
 #include <string>
@@ -12,9 +13,9 @@ namespace hogline::servo {
 
 enum class SmallPlan {
   take_out,    ///< an opponent's stone in the house
-  guard,       ///< of its own shot stone
+  guard,       ///< of its own shot stone, or before the house at the end's beginning
   draw,        ///< to the tee or beside it
-  throw_away,  ///< through, past all stones, where nothing better has a free way
+  throw_away,  ///< through, past all stones: where nothing better has a free way, or a blank end is better than a point
 };
 
 struct SmallAnswer {

@@ -35,11 +35,21 @@ int print_end(const game::Referee& referee) {
   return referee.phase() == game::RefereePhase::over ? ExitStatus::success : ExitStatus::not_achieved;
 }
 
+int tell_no_game(const std::string& failure) {
+  fmt::print(stderr, "stopped before the first end: {}\n", failure);
+  return ExitStatus::not_achieved;
+}
+
 int play_on_outcome_model(const GameOptions& options) {
   const servo::ThrowerSkill skill = practice_skill();
   const game::SimulatedSheet sheet = game::any_sheet(options.team.seed);
   game::SimulatedThrows throws(sheet, skill, servo::IceModel({}), options.team.seed);
-  GameTable table(options, *sheet.width_m, skill, [&throws] { return throws.ice(); });
+  const auto ice = [&throws] { return throws.ice(); };
+  GameTable table(options, *sheet.width_m, skill, ice);
+  if (const std::string failure = table.practise(options, skill, ice, throws); !failure.empty()) {
+    table.close();
+    return tell_no_game(failure);
+  }
   game::Referee referee(table.setting(), table.strategists(), throws, table.journal());
   table.play(referee);
   table.close();
@@ -53,8 +63,32 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; is the disk full?", path.string()));
 }
 
+/// A table that has each row as soon as there is one: who ends the program has what was thrown till then.
+class RowFile {
+ public:
+  RowFile(const std::filesystem::path& path, const std::string& header) : path_(path) {
+    std::filesystem::create_directories(path.parent_path());
+    stream_.open(path, std::ios::binary);
+    add(header);
+    if (!stream_) throw std::runtime_error(path.string() + ": can not be written; check the folder");
+  }
+  void add(const std::string& row) { stream_ << row << std::flush; }
+  void close() {
+    stream_.close();
+    if (!stream_) throw std::runtime_error(path_.string() + ": can not be written; is the disk full?");
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
+/// `end`: -1 before the first.
 void tell_throw(const TurnRecord& r, int end, int shot) {
-  fmt::print(stderr, "end {:2} shot {:2}: {:10} ", end + 1, shot + 1, r.turn.decision.plan);
+  if (end < 0)
+    fmt::print(stderr, "practice {:2}:                  ", shot + 1);
+  else
+    fmt::print(stderr, "end {:2} shot {:2}: {:10} ", end + 1, shot + 1, r.turn.decision.plan);
   if (r.lesson) fmt::print(stderr, "{:.2f} m from where it was foretold", r.lesson->error_m());
   if (r.report.seen.struck) fmt::print(stderr, "struck");
   if (r.report.end != game::ThrowEnd::thrown) fmt::print(stderr, "not thrown: {}", r.report.reason);
@@ -65,31 +99,45 @@ void tell_throw(const TurnRecord& r, int end, int shot) {
   std::fflush(stderr);
 }
 
+void tell_stage(double t_s, const std::string& what) {
+  fmt::print(stderr, "{:7.2f} s  {}\n", t_s, what);
+  std::fflush(stderr);
+}
+
 int play_with_robots(const GameOptions& options) {
   const TeamRequest request = team_request(options.team);
   SimulatedTeam team(request);
   const servo::ThrowerSkill skill = skill_of(request.thrower);
   std::vector<TurnRecord> records;
-  std::string rows = throw_header();
+  const std::filesystem::path out(options.out);
+  RowFile rows(out / "throws.csv", throw_header());
   TruthCheck* check = nullptr;
   const game::Referee* told = nullptr;
-  RobotsThrow robots(team, skill, servo::IceModel({}), [&](const TurnRecord& record) {
-    check->record(record);
-    records.push_back(record);
-    rows += throw_row(record, told->state().end, told->state().shot);
-    tell_throw(record, told->state().end, told->state().shot);
-  });
-  GameTable table(options, request.scenario.sheet.width_m, skill, [&robots] { return robots.ice(); });
+  RobotsThrow::Progress progress;  // by the oracle a throw is over sooner than it is told
+  if (request.eyes == Eyes::vision) progress = tell_stage;
+  RobotsThrow robots(
+      team, skill, servo::IceModel({}),
+      [&](const TurnRecord& record) {
+        const int end = told ? told->state().end : -1;
+        const int shot = told ? told->state().shot : static_cast<int>(records.size());
+        if (check) check->record(record);
+        records.push_back(record);
+        rows.add(throw_row(record, end, shot));
+        tell_throw(record, end, shot);
+      },
+      progress);
+  const auto ice = [&robots] { return robots.ice(); };
+  GameTable table(options, request.scenario.sheet.width_m, skill, ice);
   TruthCheck truth(table.setting(), table.journal());
-  check = &truth;
-  game::Referee referee(table.setting(), table.strategists(), robots, truth);
-  told = &referee;
   fmt::print(stderr, "on the simulated rink: no device of the rigs is opened\n");
-  table.play(referee);
+  const std::string failure = table.practise(options, skill, ice, robots);
+  game::Referee referee(table.setting(), table.strategists(), robots, truth);
+  check = &truth;
+  told = &referee;
+  if (failure.empty()) table.play(referee);
   table.close();
 
-  const std::filesystem::path out(options.out);
-  write(out / "throws.csv", rows);
+  rows.close();
   std::string summary = figures_table(truth.figures(), records) + "\n" + ice_table(records);
   for (const Disagreement& d : truth.figures().disagreements) {
     summary += fmt::format("\nend {}, shot {}: {}, decided by {:.0f} mm{}\n", d.end + 1, d.shot + 1, d.what,
@@ -98,7 +146,7 @@ int play_with_robots(const GameOptions& options) {
   write(out / "summary.md", summary);
   write(out / "figures.json", figures_json(truth.figures(), records));
   fmt::print(stderr, "\n{}\n", summary);
-  return print_end(referee);
+  return failure.empty() ? print_end(referee) : tell_no_game(failure);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "hw/clock.hpp"
 #include "src/game/built_in_strategist.hpp"
+#include "src/game/practice.hpp"
 
 namespace hogline {
 namespace {
@@ -110,8 +111,8 @@ void GameTable::seat(std::size_t side, const TableOptions& options, const servo:
   config.session.offer = offer_;
   config.session.connect_deadline = from_seconds(options.connect_s);
   auto client = std::make_unique<DigitalCurlingStrategist>(config);
-  fmt::print(stderr, "{} waits for its client at {}:{}\n", hw::digital_curling::team_name(team), options.address,
-             client->port());
+  fmt::print(stderr, "{} waits for its client at {}:{}, {:.0f} s at most\n", hw::digital_curling::team_name(team),
+             options.address, client->port(), options.connect_s);
   clients_[side] = client.get();
   strategists_[side] = std::move(client);
 }
@@ -125,6 +126,17 @@ game::GameJournal::PlayerOrders GameTable::player_orders() const {
   for (const std::size_t side : {0u, 1u})
     orders[side] = clients_[side] ? clients_[side]->player_order() : std::array{0, 1, 2, 3};
   return orders;
+}
+
+std::string GameTable::practise(const TableOptions& options, const servo::ThrowerSkill& skill,
+                                const std::function<servo::IceModel()>& ice, game::StoneThrower& thrower) {
+  const hw::SteadyClock clock;
+  game::Practice practice(
+      options.practice, skill, ice, strategists(), thrower,
+      [this](int draw, const game::Turn&, const game::ThrowReport& report) { journal_.practised(draw, report); });
+  while (!practice.over()) practice.step(clock.now());
+  if (!practice.failure().empty()) journal_.stopped(practice.failure());
+  return practice.failure();
 }
 
 void GameTable::play(game::Referee& referee, const std::function<bool()>& enough) {

@@ -16,6 +16,7 @@ namespace hogline {
 
 struct TableOptions {
   int ends = 2;
+  int practice = 2;                 ///< draws before the first end
   std::string first = "built-in";   ///< built-in, or dc:PORT for a Digital Curling client
   std::string second = "built-in";  ///< who has the hammer in the first end
   std::string address = "127.0.0.1";
@@ -43,6 +44,9 @@ class GameTable {
   /// Writes OUT/game.jsonl and OUT/game.dcl2, and each event on stdout where that is wanted.
   game::GameListener& journal() { return journal_; }
 
+  /// The draws before the game. Empty, or why one could not be thrown, which is written down too.
+  std::string practise(const TableOptions& options, const servo::ThrowerSkill& skill,
+                       const std::function<servo::IceModel()>& ice, game::StoneThrower& thrower);
   /// Steps the referee until it stops, the game is over, or `enough` says so. Clients are given time to answer.
   void play(game::Referee& referee, const std::function<bool()>& enough = {});
   /// Throws std::runtime_error where the record could not be written.

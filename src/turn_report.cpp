@@ -15,6 +15,7 @@
 #include "src/drawing/picture_overlay.hpp"
 #include "src/drawing/sheet_plan.hpp"
 #include "src/stones_setup.hpp"
+#include "src/team/throw_table.hpp"
 
 namespace hogline {
 namespace {
@@ -83,7 +84,7 @@ void add_skips_view(SheetPlan& plan, const TurnRecord& r) {
   for (const servo::WorldCollision& c : r.followed->result.collisions) {
     plan.marks.push_back({.name = "hit", .place_m = from_skip(c.x_m, c.y_m)});
   }
-  if (!r.foretold) return;
+  if (!r.foretold || r.report.seen.struck) return;  // a stone that strikes another does not stop there
   plan.ellipses.push_back({.place_m = from_skip(r.foretold->x_m, r.foretold->y_m),
                            .covariance_m2 = matrix(r.foretold->covariance),
                            .ink = inks::green});
@@ -137,6 +138,34 @@ Views views_of(const ToldTurn& told) {
     views.far = with_stones(far->frame, far->seen.stones, far->seen.eMc, rig.camera("far"), rig);
   }
   return views;
+}
+
+// ---- what the pictures' captions say ----
+
+std::string caption_of_throw(const TurnRecord& r) {
+  std::string words = fmt::format("4  {}: ordered {:.2f} m/s", r.turn.decision.plan, r.report.order.speed_mps);
+  if (const auto& t = r.thrower.release)
+    words += fmt::format(", let go {:.2f} m before the line, {:.1f} mm/s off", t->hog_distance_m,
+                         1e3 * std::abs(t->speed_error_mps));
+  if (r.followed && r.followed->result.hog_to_hog_s)
+    words += fmt::format("; {:.2f} s hog to hog", r.followed->result.hog_to_hog_s->value);
+  return words;
+}
+
+std::string title_of_house(const TurnRecord& r) {
+  std::string words = "where it ends: hits, stones by their number (grey: before)";
+  if (r.foretold && !r.report.seen.struck) words += ", the stop foretold at the hog line (green)";
+  return words;
+}
+
+std::string caption_of_house(const TurnRecord& r) {
+  int gone = 0;
+  for (const std::size_t side : {0u, 1u})
+    for (std::size_t i = 0; i < servo::stones_each; ++i)
+      gone += r.turn.board.stones[side][i] && !r.report.seen.lying.stones[side][i] ? 1 : 0;
+  const std::size_t hits = r.followed ? r.followed->result.collisions.size() : 0;
+  return fmt::format("7  where it ends: {} hit{}, {} stone{} out; seen within {:.0f} mm of the truth", hits,
+                     hits == 1 ? "" : "s", gone, gone == 1 ? "" : "s", 1e3 * worst_place_m(r));
 }
 
 // ---- JSON ----
@@ -214,10 +243,8 @@ std::string turn_json(const TurnRecord& r) {
 void write_turn(const std::string& folder, const ToldTurn& told) {
   const std::filesystem::path out(folder);
   const Views views = views_of(told);
-  const cv::Mat above = plan_of(told, -5.5, 40.5, "the turn from above", 1600);
-  const cv::Mat close = plan_of(
-      told, 27.0, 38.0,
-      "where it ends: hits, stones by their number (grey: before), the stop foretold at the hog line (green)", 1600);
+  const cv::Mat above = plan_of(told, -5.5, 40.5, "from above: throw and run", 1600);
+  const cv::Mat close = plan_of(told, 27.0, 38.0, title_of_house(*told.record), 1600);
   write_picture(out / "near.png", views.near);
   write_picture(out / "low.png", views.low);
   write_picture(out / "house_before.png", views.house_before);
@@ -225,14 +252,15 @@ void write_turn(const std::string& folder, const ToldTurn& told) {
   write_picture(out / "far.png", views.far);
   write_picture(out / "above.png", above);
   write_picture(out / "house.png", close);
-  write_picture(out / "overview.png", draw_contact_sheet({{{views.house_before, "skip: the house before"},
-                                                           {views.near, "thrower: the sheet's pose"},
-                                                           {views.low, "thrower: the hog line at last"}},
-                                                          {{above, "the turn from above"}},
-                                                          {{views.far, "skip: the stone on its way"},
-                                                           {views.house_after, "skip: the house afterwards"}},
-                                                          {{close, "where it ends"}}},
-                                                         1100));
+  write_picture(
+      out / "overview.png",
+      draw_contact_sheet({{{views.house_before, "1  the skip finds the stones"},
+                           {views.near, "2  the thrower finds its place"},
+                           {views.low, "3  ... and the hog line, running"}},
+                          {{above, caption_of_throw(*told.record)}},
+                          {{views.far, "5  the skip follows the stone"}, {views.house_after, "6  the skip counts"}},
+                          {{close, caption_of_house(*told.record)}}},
+                         1100));
   std::ofstream stream(out / "turn.json", std::ios::binary);
   stream << turn_json(*told.record) << "\n";
   stream.close();

@@ -13,6 +13,11 @@ namespace hogline::cli {
 
 namespace {
 
+/// A slower camera would be taken for one that has failed.
+std::string camera_rate(std::string& text) {
+  return between(0.0, 0.0)(text).empty() ? std::string() : between(2.0, 120.0)(text);
+}
+
 void add_robots(CLI::App* app, TeamOptions& options) {
   app->add_option("--rig", options.rig, "the thrower's rig file (YAML); without it the practice rig");
   app->add_option("--skip-rig", options.skip_rig, "the skip's rig file (YAML); without it the practice skip");
@@ -27,7 +32,7 @@ void add_robots(CLI::App* app, TeamOptions& options) {
   app->add_option("--skip-hz", options.skip_hz,
                   "rate of the skip's cameras; 0: 20 by the oracle, 6 in rendered pictures")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 120.0));
+      ->check(CLI::Validator(camera_rate, "0, or 2 to 120"));
 }
 
 void add_turn_options(CLI::App* app, TurnOptions& options) {
@@ -86,6 +91,10 @@ void add_game(CLI::App& app, Chosen& chosen) {
   game->add_option("--ends", options.ends, "how many, without extra ones")
       ->capture_default_str()
       ->check(CLI::Range(1, 20));
+  game->add_option("--practice", options.practice,
+                   "draws before the first end, from which the ice is learnt; none counts")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 16));
   game->add_option("--team0", options.first, "who decides for the first team: built-in, or dc:PORT")
       ->capture_default_str()
       ->check(known_strategist);

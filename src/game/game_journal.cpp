@@ -90,6 +90,17 @@ void GameJournal::stands(const GameUpdate& update) {
             .dump());
 }
 
+// The record of Digital Curling's programs knows no practice.
+void GameJournal::practised(int draw, const ThrowReport& report) {
+  ordered_json event{{"event", "practice"}, {"draw", draw}, {"outcome", name_of(report.end)}};
+  if (report.end == ThrowEnd::thrown)
+    event["order"] = order_json(report.order);
+  else
+    event["reason"] = report.reason;
+  event["lying"] = board_json(report.seen.lying);
+  line_(event.dump());
+}
+
 void GameJournal::decided(const Turn& turn) { log_.move(turn.team, turn.decision.move); }
 
 void GameJournal::thrown(const Turn& turn, const ThrowReport& report, const Judged& judged) {

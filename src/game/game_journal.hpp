@@ -18,6 +18,7 @@ class GameJournal final : public GameListener {
               const hw::digital_curling::GameIdentity& identity, const hw::digital_curling::GameOffer& offer,
               std::function<PlayerOrders()> player_orders);
 
+  void practised(int draw, const ThrowReport& report) override;
   void begun(const std::array<std::string, servo::team_count>& names) override;
   void stands(const servo::GameUpdate& update) override;
   void decided(const Turn& turn) override;

@@ -14,6 +14,8 @@ namespace hogline::game {
 class GameListener {
  public:
   virtual ~GameListener() = default;
+  /// A draw thrown before the game, from which the ice is learnt; `draw` from 0.
+  virtual void practised(int, const ThrowReport&) {}
   virtual void begun(const std::array<std::string, servo::team_count>& names) = 0;
   /// Before each throw, and once more when the game is over.
   virtual void stands(const servo::GameUpdate& update) = 0;

@@ -29,6 +29,7 @@ constexpr double speed_sigma_mps = 0.006;  // doc/performance.md: its campaigns
 constexpr double heading_sigma_rad = 0.03 * std::numbers::pi / 180.0;
 constexpr double spin_radps = 1.5;
 constexpr int path_periods = 20;
+constexpr Duration stone_told_every = std::chrono::seconds(4);
 constexpr double speed_reserve_mps = 0.1;
 
 /// Of the worst seen stone in the house, in any direction.
@@ -96,6 +97,23 @@ void RobotsThrow::watch_truth() {
   if (truth.release) record_.stone_path.push_back({truth.stone.x_m, truth.stone.y_m});
 }
 
+// A throw in rendered pictures takes as long as a real one: who watches sees that it goes on.
+void RobotsThrow::tell_state() {
+  const ThrowerLoop* loop = team_.thrower().loop();
+  if (!progress_ || !loop || !team_.thrower().throwing()) return;
+  const std::string state = to_string(loop->thrower().state());
+  if (state != told_state_) progress_(seconds(team_.now() - began_), "the thrower: " + state);
+  told_state_ = state;
+}
+
+void RobotsThrow::tell_stone() {
+  const auto& stone = team_.skip().skip().diagnosis().thrown;
+  if (!progress_ || !stone || team_.now() - stone_told_ < stone_told_every) return;
+  stone_told_ = team_.now();
+  progress_(seconds(stone_told_ - began_), fmt::format("the skip sees it {:.2f} m before the tee at {:.2f} m/s",
+                                                       stone->y_m, servo::speed_mps(*stone)));
+}
+
 std::optional<ThrowReport> RobotsThrow::advance() {
   watch_truth();
   switch (phase_) {
@@ -120,6 +138,7 @@ std::optional<ThrowReport> RobotsThrow::advance() {
 std::optional<ThrowReport> RobotsThrow::prepare_attempt() {
   ++record_.attempts;
   judge_.reset();
+  told_state_.clear();
   record_.robot_path.clear();
   team_.crew().prepare(record_.turn.board, {side_of(record_.turn.team), record_.turn.stone});
   record_.true_before = team_.crew().lying();
@@ -158,8 +177,10 @@ std::optional<ThrowReport> RobotsThrow::decide() {
 }
 
 std::optional<ThrowReport> RobotsThrow::ordered() {
+  tell_state();
   const OrderPhase phase = team_.skip().ordered();
   if (phase == OrderPhase::released) {
+    stone_told_ = team_.now();
     enter(Phase::following, "released");
     return std::nullopt;
   }
@@ -184,6 +205,7 @@ std::optional<ThrowReport> RobotsThrow::failed(const std::string& why) {
 }
 
 void RobotsThrow::following() {
+  tell_stone();
   const servo::Skip& skip = team_.skip().skip();
   const servo::SkipDiagnosis& known = skip.diagnosis();
   const bool far_off = known.thrown && known.thrown->y_m > servo::hog_line_m;
@@ -238,10 +260,12 @@ void RobotsThrow::learn() {
   const servo::ThrowResult& result = record_.followed->result;
   IceLesson lesson{.foretold = {}, .rest = {}, .before = ice_.estimate(), .after = {}};
   const Eigen::Matrix3d ice_covariance = ice_.throw_covariance();
-  if (result.track) ice_.learn(servo::from_other_end(*result.track));
+  const bool touch_not_seen =
+      record_.report.seen.struck && result.collisions.empty();  // its track is not free to the end
+  if (result.track && !touch_not_seen) ice_.learn(servo::from_other_end(*result.track));
   lesson.after = ice_.estimate();
   const auto& thrown = record_.report.seen.lying.stones[side_of(record_.turn.team)][record_.turn.stone];
-  if (!record_.release || !thrown || !result.collisions.empty()) return;
+  if (!record_.release || !thrown || record_.report.seen.struck) return;
   const servo::SlidingStone stone = servo::released(
       {.speed_mps = record_.release->speed_mps,
        .heading_rad = record_.release->heading_rad,

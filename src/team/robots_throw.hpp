@@ -79,6 +79,8 @@ class RobotsThrow final : public game::StoneThrower {
   game::ThrowReport closed(game::ThrowEnd end, const std::string& reason);
   void learn();
   void watch_truth();
+  void tell_state();
+  void tell_stone();
 
   SimulatedTeam& team_;
   servo::ThrowerSkill skill_;
@@ -90,6 +92,8 @@ class RobotsThrow final : public game::StoneThrower {
   Stamp began_{};
   std::uint32_t shot_ = 0;
   int periods_ = 0;
+  std::string told_state_;
+  Stamp stone_told_{};
   TurnRecord record_;
   std::vector<std::optional<StoneName>> names_;
   std::optional<ThrowJudge> judge_;

@@ -20,7 +20,14 @@ const char* word(game::ThrowEnd end) {
 
 double sigma_of(const PlaceCovariance& c) { return std::sqrt(c.xx_m2 + c.yy_m2); }
 
-/// Seen less true, of the stones that lie in both.
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
 double worst_place_m(const TurnRecord& r) {
   double worst = 0.0;
   for (const std::size_t side : {0u, 1u}) {
@@ -31,14 +38,6 @@ double worst_place_m(const TurnRecord& r) {
   }
   return worst;
 }
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-}  // namespace
 
 std::string throw_header() {
   return "end,shot,team,outcome,attempts,plan,speed_mps,heading_rad,release_place_mm,release_speed_mps,"
@@ -87,7 +86,8 @@ std::string figures_table(const TruthFigures& f, const std::vector<TurnRecord>& 
   row("stones' places, seen less true, RMS / worst [mm]",
       fmt::format("{:.1f} / {:.1f}", f.places > 0 ? 1e3 * std::sqrt(f.square_m2 / f.places) : 0.0, 1e3 * f.worst_m));
   row("simulated s a throw; times real time",
-      fmt::format("{:.1f}; {:.1f}", simulated_s / std::max(1, f.throws), wall_s > 0.0 ? simulated_s / wall_s : 0.0));
+      fmt::format("{:.1f}; {:.1f}", simulated_s / std::max(1.0, static_cast<double>(records.size())),
+                  wall_s > 0.0 ? simulated_s / wall_s : 0.0));
   return t;
 }
 
@@ -96,11 +96,13 @@ std::string figures_json(const TruthFigures& f, const std::vector<TurnRecord>& r
   for (const TurnRecord& r : records) simulated_s += r.simulated_s, wall_s += r.wall_s;
   const auto measures = std::ranges::count(f.disagreements, true, &Disagreement::a_measure);
   return fmt::format(
-      "{{\"ends\":{},\"throws\":{},\"disagreements\":{},\"too_close_disagreements\":{},\"too_close_ends\":{},"
+      "{{\"turns\":{},\"ends\":{},\"throws\":{},\"disagreements\":{},\"too_close_disagreements\":{},\"too_close_ends\":"
+      "{},"
       "\"given_away\":{},\"repeated\":{},\"remarked\":{},\"struck\":{},\"struck_wrong\":{},\"places\":{},"
       "\"square_m2\":{},\"worst_m\":{},\"simulated_s\":{},\"wall_s\":{}}}\n",
-      f.ends, f.throws, f.disagreements.size() - static_cast<std::size_t>(measures), measures, f.measures, f.given_away,
-      f.repeated, f.unfollowed, f.collisions, f.struck_wrong, f.places, f.square_m2, f.worst_m, simulated_s, wall_s);
+      records.size(), f.ends, f.throws, f.disagreements.size() - static_cast<std::size_t>(measures), measures,
+      f.measures, f.given_away, f.repeated, f.unfollowed, f.collisions, f.struck_wrong, f.places, f.square_m2,
+      f.worst_m, simulated_s, wall_s);
 }
 
 std::string ice_table(const std::vector<TurnRecord>& records) {

@@ -10,8 +10,11 @@ namespace hogline {
 
 /// Keys of throws.csv, with the line's end.
 std::string throw_header();
-/// `end` and `shot` from 0.
+/// `end` and `shot` from 0; end -1: practice before the first.
 std::string throw_row(const TurnRecord& record, int end, int shot);
+
+/// Seen less true, of the stones that lie in both.
+double worst_place_m(const TurnRecord& record);
 
 /// The figures in words: a Markdown table.
 std::string figures_table(const TruthFigures& figures, const std::vector<TurnRecord>& records);

@@ -250,7 +250,7 @@ def misbehave(kind, line, shot, port):
         tell(waits="to be late")
         sys.stdin.readline()
         line.say(move(shot))
-    elif kind == "vanish":
+    elif kind in ("vanish", "vanish-waiting"):
         line.socket.shutdown(socket.SHUT_RDWR)
         line.socket.close()
     elif kind == "huge-line":
@@ -316,8 +316,10 @@ def play(port, name, kind):
         check(message["cmd"] == "update", "cmd: update")
         follower.update(message)
         own = message["next_team"] == TEAMS[me]
-        if kind == "out-of-turn" and not own and message["next_team"]:
+        if kind in ("out-of-turn", "vanish-waiting") and not own and message["next_team"]:
             misbehave(kind, line, None, port)
+            if kind == "vanish-waiting":
+                return
             kind = None
         if own:
             if kind and not misbehave(kind, line, {"type": "shot", "velocity": {"x": 0.1, "y": 2.4}, "rotation": "cw"}, port):

@@ -65,13 +65,45 @@ TEST_P(Situations, HaveTheirPlan) {
 INSTANTIATE_TEST_SUITE_P(
     Each, Situations,
     testing::Values(
-        Situation{"an_empty_house", {}, 1, SmallPlan::draw, 0.0, tee_m},
+        Situation{"an_empty_house", {}, 7, SmallPlan::draw, 0.0, tee_m},
+        Situation{"its_first_with_the_hammer", {{other, 0.0, 34.2}}, 1, SmallPlan::guard, 1.1, 34.3},
+        Situation{
+            "its_first_and_a_stone_in_the_house", {{other, 0.2, tee_m}}, 1, SmallPlan::take_out, 0.2, tee_m - 0.29},
         Situation{"the_others_shot_stone", {{other, 0.3, tee_m}}, 7, SmallPlan::take_out, 0.3, tee_m - 0.29},
         Situation{"a_stone_outside_the_house", {{other, 0.9, 34.0}}, 7, SmallPlan::draw, 0.0, tee_m},
         Situation{"its_own_shot_stone", {{own, 0.1, tee_m + 0.2}}, 7, SmallPlan::guard, 0.1, tee_m - 2.4},
         Situation{"its_own_guarded_one", {{own, 0.4, tee_m}, {own, 0.4, tee_m - 2.6}}, 7, SmallPlan::draw, 0.0, tee_m},
         Situation{"its_own_and_the_last_throw", {{own, 0.6, tee_m}}, 15, SmallPlan::draw, 0.0, tee_m}),
     [](const auto& given) { return std::string(given.param.what); });
+
+/// The first team's first throw, or the second team's last one, in a game of eight ends.
+SmallAnswer answer_at(int end, int shot, int lead_of_first, const IceModel& ice = learnt_ice()) {
+  GameSetting setting;
+  setting.ends = 8;
+  GameState state = new_game(setting);
+  state.end = end;
+  state.shot = shot;
+  if (lead_of_first > 0) state.scores[0][0] = lead_of_first;
+  if (lead_of_first < 0) state.scores[1][0] = -lead_of_first;
+  return small_strategy(state, robot(), ice);
+}
+
+TEST(SmallStrategy, WhoHasNotTheHammerBeginsWithAGuardUnlessItLeads) {
+  const SmallAnswer guard = answer_at(2, 0, 1);
+  EXPECT_EQ(guard.plan, SmallPlan::guard);
+  EXPECT_NEAR(guard.aim.place.x_m, 0.0, 1e-9);
+  EXPECT_EQ(answer_at(2, 0, 2).plan, SmallPlan::draw);
+  EXPECT_EQ(answer_at(2, 0, 0, IceModel({})).plan, SmallPlan::draw) << "on ice not known a guard may lie anywhere";
+}
+
+TEST(SmallStrategy, TheLastThrowToAnEmptyHouseKeepsTheHammerWhereThereAreEndsToCome) {
+  EXPECT_EQ(answer_at(2, 15, 0).plan, SmallPlan::throw_away);
+  EXPECT_EQ(answer_at(2, 15, 3).plan, SmallPlan::throw_away);
+  EXPECT_EQ(answer_at(7, 15, 0).plan, SmallPlan::draw) << "the last end: a point wins";
+  EXPECT_EQ(answer_at(7, 15, 1).plan, SmallPlan::draw) << "... or draws level";
+  EXPECT_EQ(answer_at(7, 15, -1).plan, SmallPlan::throw_away) << "it has won";
+  EXPECT_EQ(answer_at(8, 15, 0).plan, SmallPlan::draw) << "an extra end";
+}
 
 TEST(SmallStrategy, SaysWhyWhenNothingCanBeThrown) {
   ThrowerSkill weak = robot();

@@ -25,6 +25,7 @@ class Scripted : public hw::Strategist {
     state_.phase = hw::StrategistPhase::waiting;
   }
   void tell(const servo::GameUpdate& update, Stamp) override {
+    if (state_.phase == hw::StrategistPhase::failed) return;
     const auto next = next_team(update.state);
     state_.decision.reset();
     state_.phase = !next           ? hw::StrategistPhase::over
@@ -120,6 +121,20 @@ TEST(Referee, AStrategistThatFailsStopsTheGameAlsoInTheOthersTurn) {
   EXPECT_TRUE(table.witness.reports.empty());
 }
 
+TEST(Referee, AStoneThatRunsIsFollowedToItsEndThoughAStrategistHasFailed) {
+  Table table;
+  table.steps(1);
+  table.first.decide(draw);
+  table.steps(1);
+  ASSERT_EQ(table.referee.phase(), RefereePhase::throwing);
+  table.second.end(hw::StrategistPhase::failed, "it vanished");
+  table.steps(2);
+  EXPECT_EQ(table.referee.phase(), RefereePhase::stopped);
+  EXPECT_EQ(table.referee.reason(), "it vanished");
+  ASSERT_EQ(table.witness.reports.size(), 1u);
+  EXPECT_EQ(table.witness.reports[0].end, ThrowEnd::thrown);
+}
+
 using nlohmann::json;
 
 /// A game of the built-in strategist against itself, on ice that nobody knows at first.
@@ -149,6 +164,32 @@ struct OwnGame {
   GameJournal journal;
   Referee referee;
 };
+
+/// What the journal says of an end in which the second team's stone lies so much farther from the tee than the first's.
+json end_of(double farther_m, double seen_sigma_m) {
+  json told;
+  std::ostringstream record;
+  hw::digital_curling::GameLog log(record, [] { return std::string(); });
+  GameJournal journal([&](const std::string& line) { told = json::parse(line); }, log, {}, {},
+                      [] { return GameJournal::PlayerOrders{}; });
+  servo::Judged judged;
+  judged.board.stones[0][0] = servo::BoardStone{0.5, servo::in_sheet::tee_y_m, 0.0};
+  judged.board.stones[1][0] = servo::BoardStone{-0.5 - farther_m, servo::in_sheet::tee_y_m, 0.0};
+  judged.end = servo::EndScore{1, 0};
+  ThrowReport report;
+  report.end = ThrowEnd::thrown;
+  report.seen_sigma_m = seen_sigma_m;
+  journal.thrown({}, report, judged);
+  return told;
+}
+
+// On ice an official measures what nobody can tell by eye: the skip has to say that it can not.
+TEST(GameJournal, SaysWhichEndsAreToBeMeasured) {
+  EXPECT_TRUE(end_of(0.002, 0.003)["measure"]);
+  EXPECT_NEAR(end_of(0.002, 0.003)["margin_m"].get<double>(), 0.002, 1e-9);
+  EXPECT_FALSE(end_of(0.002, 0.0005)["measure"]) << "seen well enough";
+  EXPECT_FALSE(end_of(0.05, 0.003)["measure"]);
+}
 
 double from_tee(const json& stone) {
   return std::hypot(stone["x_m"].get<double>(), stone["y_m"].get<double>() - 38.405);

@@ -5,23 +5,12 @@
 
 #include <cmath>
 
-#include "src/game/built_in_strategist.hpp"
-#include "src/team/truth_check.hpp"
 #include "tests/src/team/practice_team.hpp"
 
 namespace hogline::test {
 namespace {
 
 using game::ThrowEnd;
-
-class Nobody final : public game::GameListener {
- public:
-  void begun(const std::array<std::string, servo::team_count>&) override {}
-  void stands(const servo::GameUpdate&) override {}
-  void decided(const game::Turn&) override {}
-  void thrown(const game::Turn&, const game::ThrowReport&, const servo::Judged&) override {}
-  void stopped(const std::string&) override {}
-};
 
 /// A draw by the first team on a house with one stone in it.
 struct OneTurn {
@@ -162,37 +151,6 @@ TEST(RobotsThrow, ALostStoneIsNotThrownAgain) {
   const auto& lost = report.seen.lying.stones[0][0];
   EXPECT_TRUE(!lost || !servo::past_hog_line(*lost)) << "wherever it is seen: short of the hog line, and so out";
   EXPECT_TRUE(report.seen.lying.stones[1][0]) << "the other one stands";
-}
-
-TEST(RobotsThrow, AnEndAgainstItselfAgreesWithTheTruth) {
-  SimulatedTeam team(practice_team(1));
-  const servo::ThrowerSkill skill = skill_of(team.request().thrower);
-  TruthCheck* check = nullptr;
-  int records = 0;
-  RobotsThrow robots(team, skill, servo::IceModel({}), [&](const TurnRecord& r) {
-    check->record(r);
-    ++records;
-  });
-  game::BuiltInStrategist first(Team::first, skill, [&] { return robots.ice(); });
-  game::BuiltInStrategist second(Team::second, skill, [&] { return robots.ice(); });
-  servo::GameSetting setting;
-  setting.ends = 1;
-  setting.most_ends = 1;
-  setting.thinking.fill(std::chrono::hours(1));
-  Nobody nobody;
-  TruthCheck truth(setting, nobody);
-  check = &truth;
-  game::Referee referee(setting, {&first, &second}, robots, truth);
-  while (referee.phase() != game::RefereePhase::over && referee.phase() != game::RefereePhase::stopped)
-    referee.step({});
-  ASSERT_EQ(referee.phase(), game::RefereePhase::over) << referee.reason();
-  EXPECT_EQ(records, servo::stones_an_end);
-  const TruthFigures& f = truth.figures();
-  EXPECT_EQ(f.ends, 1);
-  EXPECT_GT(f.collisions, 3) << "an end without collisions shows little";
-  for (const Disagreement& d : f.disagreements) EXPECT_TRUE(d.a_measure) << d.shot << ": " << d.what;
-  EXPECT_EQ(f.struck_wrong, 0);
-  EXPECT_LT(f.worst_m, 0.03);
 }
 
 }  // namespace

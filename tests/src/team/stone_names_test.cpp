@@ -121,6 +121,19 @@ TEST(StonesAfter, WithoutFollowingTheCountAloneCounts) {
   EXPECT_NEAR(place(after, thrown)->x_m, 0.9, 1e-9);
 }
 
+TEST(StonesAfter, AStoneThatIsCountedElsewhereWasStruckThoughNobodySawIt) {
+  SeenThrow seen = a_hit(at(0, -0.4, 0.5), at(2, -0.3, 0.6));
+  seen.followed->collisions.clear();
+  seen.counted = {seen_at(-0.4, 0.51, Team::second), seen_at(0.11, 3.0, Team::first), seen_at(0.9, -0.4, Team::first)};
+  EXPECT_FALSE(stones_after(seen).stones.struck) << "1 cm is what looks differ by";
+  seen.counted->front().y_m = 0.55;
+  EXPECT_FALSE(stones_after(seen).stones.struck) << "along the sight a whole look may be shifted";
+  seen.counted->front() = seen_at(-0.43, 0.51, Team::second);
+  EXPECT_TRUE(stones_after(seen).stones.struck);
+  seen.counted->front().covariance = {1e-4, 0.0, 1e-4};
+  EXPECT_FALSE(stones_after(seen).stones.struck) << "not seen surely enough";
+}
+
 TEST(StonesAfter, SomethingThatIsNoStoneOfTheirsChangesNothing) {
   SeenThrow seen = a_hit(at(0, -2.0, -0.5, StoneFate::through), at(2, -0.3, 0.6));
   seen.counted = {seen_at(0.1, 3.0, Team::first), seen_at(-0.3, 0.6, Team::first), seen_at(1.3, 1.9, Team::second)};
