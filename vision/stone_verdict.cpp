@@ -25,6 +25,7 @@ constexpr int least_granite_pixels = 8;  // fewer say nothing of a colour
 constexpr double grip_height_m = 0.045;  // of a grip's bar over the handle's rim, about
 constexpr double grip_half_m = 0.06;     // across: half a bar
 constexpr double grip_reach_m = 0.16;    // along: a little height is much range
+constexpr double stayed_m = 0.03;
 constexpr double least_lone_handle_votes = 0.50;
 constexpr double least_visible = 0.15;
 constexpr double most_drift_m = 0.16;
@@ -93,12 +94,26 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   return {};
 }
 
+namespace {
+
+// Where a fit stayed at its votes and nothing hides it they still say what of the outlines is there.
+std::string doubt_of_votes(const StoneCandidate& candidate, const FittedStone& fit) {
+  if ((fit.place - candidate.place).norm() > stayed_m) return {};
+  if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
+  const bool should_show = fit.body_contrast > clear_contrast;
+  return should_show && candidate.body_votes < least_body_votes ? "a handle's outline without a body's" : "";
+}
+
+}  // namespace
+
 std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite,
                              bool in_plain_sight) {
   if (!fit.ok) return fit.reason;
   if (fit.telling < fewest_telling) return "too little of it can be seen";
   const double least = in_plain_sight ? least_told_at_last : least_told + told_of_few / std::sqrt(fit.telling);
   if (fit.told < least || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
+  const std::string doubt = in_plain_sight ? doubt_of_votes(candidate, fit) : std::string();
+  if (!doubt.empty()) return doubt;
   if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
   if (!is_coloured(fit.handle)) return "its handle has no colour";
   if (fit.handle_contrast < faint) return "no handle stands out";

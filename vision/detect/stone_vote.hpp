@@ -25,7 +25,7 @@ struct StoneCandidate {
 struct StoneVoteOptions {
   StoneArea area;
   double least_votes = 0.26;
-  std::size_t most_candidates = 120;
+  std::size_t most_candidates = 300;  ///< a dark ring and a crowd make 150, and a stone is not always among the first
 };
 
 /// Keeps its memory from picture to picture.

@@ -36,6 +36,8 @@ const Case cases[] = {
     {"between grey legs", 6089, -1.539, 5.470},
     {"half behind a grey leg", 6059, 0.450, 4.576},
     {"half behind a blue leg on a dark ring", 6038, 1.200, 0.329},
+    {"in plain sight, but the hundred and twentieth of the places with votes", 11036, -1.099, -1.049},
+    {"a red handle on a dark green ring, of which a few marks showed hardly an edge", 10072, -1.580, -0.152},
     {"half behind a leg with a handle's hue", 7488, 1.601, 3.767},
 };
 
