@@ -66,7 +66,7 @@ std::string practice_rig_here() {
     replace_all(text, full, small);
   }
   replace_all(text, "interface: can0", "interface: vcan0");
-  replace_all(text, "port: 502", "port: 50502");
+  replace_all(text, "port: 502", "port: 15502");
   replace_all(text, "/dev/serial/by-id/usb-GYRO", "/run/gyro");
   return text;
 }

@@ -239,7 +239,7 @@ std::string TeamScene::thrower_rig() const {
   std::string rig = own(text_of(fs::path(HOGLINE_SOURCE_DIR) / "config/rigs/thrower.yaml"));
   const auto number = static_cast<unsigned>(getpid());
   replace(rig, "group: 239.74.163.2", "group: 239.75." + std::to_string(1 + number % 250) + ".1");
-  replace(rig, "port: 50502", "port: " + std::to_string(21000 + number % 10000));
+  replace(rig, "port: 15502", "port: " + std::to_string(21000 + number % 10000));
   replace(rig, "/tmp/hogline-thrower-gyro", folder_ / "gyro");
   replace(rig, "/tmp/hogline-thrower-operator", folder_ / "operator");
   return rig;
