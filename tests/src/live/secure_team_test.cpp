@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr Duration patience = 60s;
 constexpr Duration watchdog = 2s;
-constexpr int turns = 2;
+constexpr int turns = 4;
 constexpr int tries = 10;
 
 fs::path sockets() { return fs::temp_directory_path() / ("hogline-notify-" + std::to_string(getpid())); }
