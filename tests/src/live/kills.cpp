@@ -116,7 +116,7 @@ bool not_before(const std::string& state, const std::string& other) {
 
 // A busy machine may hold a loop up until a drive gives up its master: then the operator presses again.
 std::optional<Stamp> throw_began(TeamScene& scene) {
-  constexpr int attempts = 3;
+  constexpr int attempts = 10;
   for (int i = 0; i < attempts; ++i) {
     const Stamp begin = now();
     if (scene.skip_waits()) {

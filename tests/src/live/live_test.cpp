@@ -26,8 +26,7 @@ constexpr int throws = 4;
 void expect_no_replay_is_thrown(TeamScene& scene) {
   scene.hand().end();
   const Stamp begin = now();
-  scene.rink().say("again");
-  ASSERT_TRUE(wait_until([&] { return scene.rink().told_since(begin, "again").has_value(); }, patience));
+  ASSERT_TRUE(scene.put_back("again")) << all_of(scene.rink());
   scene.hand().start();
   ASSERT_TRUE(wait_until([&] { return scene.thrower().told_since(begin, "armed").has_value(); }, patience))
       << all_of(scene.thrower());

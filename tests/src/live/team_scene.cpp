@@ -311,10 +311,21 @@ bool TeamScene::set_up() {
       }
     return last == "session" || last == "disarmed";
   };
-  if (!wait_until(thrower_waits, 30s)) return false;
-  const Stamp asked = now();
-  rink_.say("again 0");
-  return wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s);
+  return wait_until(thrower_waits, 30s) && put_back("again 0");
+}
+
+bool TeamScene::put_back(const std::string& order) {
+  const Stamp begin = now();
+  std::optional<Stamp> asked;
+  const auto put = [&] {
+    if (rink_.told_since(begin, "again")) return true;
+    if (!asked || rink_.told_since(*asked, "refused")) {
+      asked = now();
+      rink_.say(order);
+    }
+    return false;
+  };
+  return wait_until(put, 60s);
 }
 
 bool TeamScene::skip_is_heard() {

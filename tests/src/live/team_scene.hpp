@@ -136,6 +136,9 @@ class TeamScene {
   const std::vector<std::vector<TrueStone>>& rests() const { return rests_; }
   /// The robot stands in the hack with a stone, everybody is there, nobody holds the switch.
   bool set_up();
+  /// The robot goes back to the hack for its next stone, by this order to the rink, which refuses it as long as a stone
+  /// of the turn before still runs: it is asked until it is done. False: it does not come to that.
+  bool put_back(const std::string& order);
   /// The skip that is one has looked, waits for a stone, and hears the thrower. False: it does not come to that.
   bool skip_waits();
   /// The skip plays, and the strategist sits at its table. False: it does not come to that.
