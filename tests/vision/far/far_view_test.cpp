@@ -65,6 +65,31 @@ INSTANTIATE_TEST_SUITE_P(PathTraced, FarScenes,
                          ::testing::Values(PathTraced{"far/far-14-001", 0.06}, PathTraced{"far/far-14-004", 0.03}),
                          [](const auto& scene) { return std::string(scene.param.name).substr(11); });
 
+// The score's own law: a stone that was missed is missed, and takes neither place nor team of one that stands beside
+// it.
+TEST(FarScoring, AMissedStoneDoesNotTakeItsNeighboursSighting) {
+  FarScene far;
+  far.stones = {{.x_m = -2.27, .y_m = 20.03, .red = false}, {.x_m = -2.15, .y_m = 20.42, .red = true}};
+  FarPercept seen;
+  seen.ok = true;
+  seen.eMc = row_major(far.scene.eMc);
+  seen.correction.tilt_sigma_rad = 1e-4;
+  StoneSighting red;
+  red.x_m = -2.151;
+  red.y_m = 20.41;
+  red.covariance = {1e-6, 0.0, 1e-4};
+  red.team = Team::first;
+  seen.stones.push_back(red);
+  FarScore score;
+  testing::add_look(far, seen, score);
+  EXPECT_EQ(score.in_sight, 2);
+  EXPECT_EQ(score.missed, 1);
+  EXPECT_EQ(score.ghosts, 0);
+  EXPECT_EQ(score.wrong_team, 0);
+  EXPECT_LT(FarScore::rms(score.across_m), 0.002);
+  EXPECT_LT(FarScore::rms(score.across_sigmas), 2.0);
+}
+
 // Any colours, dividers, logos, light, people and stones next door; head and mount off by up to half a degree.
 TEST(FarView, OneStoneAnywhere) {
   const FarScore score = score_far(5000, 20, {.most_people = 4});
