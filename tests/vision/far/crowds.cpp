@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <opencv2/core/utility.hpp>
+#include <string>
 
 #include "tests/vision/far/far_score.hpp"
 
@@ -23,7 +24,9 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   const int count = argc > 1 ? std::atoi(argv[1]) : 30;
   const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
-  const FarScore score = hogline::vision::testing::score_far(first, count, hogline::vision::testing::crowded());
+  const bool no_stones = argc > 3 && std::string(argv[3]) == "people";
+  const FarScore score = hogline::vision::testing::score_far(
+      first, count, no_stones ? hogline::vision::testing::nobodys_stones() : hogline::vision::testing::crowded());
   for (const std::string& failure : score.failures) std::printf("%s\n", failure.c_str());
   std::printf("%d scenes, %d refused: %d of %d stones in sight missed, %d ghosts, %d of the wrong team, %d of none\n",
               count, score.refused, score.missed, score.in_sight, score.ghosts, score.wrong_team, score.unknown_team);

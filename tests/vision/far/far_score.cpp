@@ -117,6 +117,10 @@ FarPlan far_plan_of(const FarScene& far) {
 
 hogline::testing::FarMix crowded() { return {.most_stones = 8, .least_stones = 5}; }
 
+hogline::testing::FarMix nobodys_stones() {
+  return {.most_stones = 0, .least_stones = 0, .most_people = 6, .most_neighbours = 6, .most_logos = 4};
+}
+
 FarPercept look_far(const FarScene& far) {
   FarView view(far_setup_of(far.scene.setup));
   return view.look(render(far.scene), {}, far_plan_of(far));

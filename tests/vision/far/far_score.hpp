@@ -15,6 +15,8 @@ FarPlan far_plan_of(const hogline::testing::FarScene& far);
 
 /// Five to eight stones, with people, neighbours' stones and logos.
 hogline::testing::FarMix crowded();
+/// No stone on the sheet, but people, logos and stones of the next sheets.
+hogline::testing::FarMix nobodys_stones();
 
 /// A look at the scene's picture from its plan.
 FarPercept look_far(const hogline::testing::FarScene& far);
