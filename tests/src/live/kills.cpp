@@ -1,5 +1,6 @@
 // Kills or stops the programs of a team at random moments of throws, and reads from the rink's truth what became of the
-// robot:  hogline_kills PROGRAM COUNT SEED
+// robot:  hogline_kills PROGRAM COUNT SEED [FIRST]
+// The first is 0 unless it is said; whom a signal strikes, and which, goes by its number.
 // Prints a table; its exit status is 1 when the robot did not stop in time, let a stone go that it should have kept,
 // moved on its own afterwards, or could not be set up again.
 #include <fmt/format.h>
@@ -336,9 +337,10 @@ void tell_all(TeamScene& scene, Stamp since) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 4) return 2;
+  if (count != 4 && count != 5) return 2;
   std::signal(SIGPIPE, SIG_IGN);
   const int trials = std::atoi(arguments[2]);
+  const int first = count == 5 ? std::atoi(arguments[4]) : 0;
   std::mt19937 random(static_cast<std::uint32_t>(std::atol(arguments[3])));
   TeamScene scene(arguments[1], {.whole_skip = true, .strategists = 1});
   std::vector<double> stops;
@@ -349,8 +351,8 @@ int main(int count, char** arguments) {
       "|--:|---|---|--:|--:|--:|---|---|\n");
   for (int i = 0; i < trials; ++i) {
     const Stamp begin = now();
-    const Result r = carry_out(scene, draw(random, i));
-    fmt::print("{}\n", row(i + 1, r));
+    const Result r = carry_out(scene, draw(random, first + i));
+    fmt::print("{}\n", row(first + i + 1, r));
     if (!r.problem.empty()) tell_all(scene, begin);
     std::fflush(stdout);
     problems += r.problem.empty() ? 0 : 1;
