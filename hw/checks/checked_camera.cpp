@@ -21,9 +21,10 @@ CheckedCamera::CheckedCamera(Camera& camera, CameraWatch watch)
 }
 
 void CheckedCamera::note_asking(Stamp now) {
-  if (!last_asked_ || now - *last_asked_ > watch_.silence_limit) {
+  const auto paused = [&](Duration limit) { return !last_asked_ || now - *last_asked_ > limit; };
+  if (paused(watch_.max_age)) last_frame_ = now;  // nobody asked: that was no silence of the camera's
+  if (paused(watch_.silence_limit)) {
     asking_since_ = now;
-    last_frame_ = now;
     check_.forget();
   }
   last_asked_ = now;
@@ -55,15 +56,21 @@ std::optional<CheckedCamera::Problem> CheckedCamera::problem_of(const Frame& fra
 }
 
 std::optional<Frame> CheckedCamera::latest(Stamp now) {
+  const std::optional<Stamp> asked_before = last_asked_;
   note_asking(now);
   auto frame = camera_.latest(now);
   if (!frame) {
     watch_silence(now);
     return std::nullopt;
   }
-  last_frame_ = now;
   ever_ = true;
-  if (frame->stamp < asking_since_) {
+  // One that was not late when it was last asked for may have waited for us ever since: too old to be used, and
+  // nobody's fault but ours. It breaks no silence: a camera that is always a little late is found out by that.
+  const bool is_next = !newest_stamp_ || frame->stamp > *newest_stamp_;
+  const bool waited_for_us =
+      is_next && now - frame->stamp > watch_.max_age && asked_before && *asked_before - frame->stamp <= watch_.max_age;
+  if (!waited_for_us) last_frame_ = now;
+  if (frame->stamp < asking_since_ || waited_for_us) {
     ++counters_.too_soon;
     return std::nullopt;
   }

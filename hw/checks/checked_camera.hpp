@@ -22,7 +22,7 @@ struct CameraWatch {
 struct CheckedCameraCounters {
   std::uint64_t given = 0;
   std::uint64_t refused = 0;   ///< failed a check
-  std::uint64_t too_soon = 0;  ///< exposed before anybody asked: see CheckedCamera
+  std::uint64_t too_soon = 0;  ///< exposed before anybody asked, or waited for somebody to: see CheckedCamera
 };
 
 /// Gives the frames of another camera that pass, and latches a device error with the first that does not: late, from
@@ -30,7 +30,8 @@ struct CheckedCameraCounters {
 /// Silence is an error as well: while frames are asked for, one must come within the limit.
 ///
 /// After a pause in the asking (longer than silence_limit), frames exposed before the asking began again are passed
-/// over: whoever asks decides when the camera has something to see, and a folded head sees darkness.
+/// over: whoever asks decides when the camera has something to see, and a folded head sees darkness. After a shorter
+/// one a frame that has become too old only because nobody asked is passed over as well.
 class CheckedCamera final : public Camera {
  public:
   /// The camera must outlive this.

@@ -164,6 +164,30 @@ TEST(CheckedCamera, a_pause_in_the_asking_is_not_silence_of_the_camera) {
   EXPECT_FALSE(bench.checked.error()) << bench.checked.error()->what;
 }
 
+// Longer or shorter than any of the limits: what waits for us is not late, and our own pause is not silence.
+TEST(CheckedCamera, no_pause_in_the_asking_is_the_cameras_fault) {
+  for (Duration pause = 5ms; pause < 200ms; pause += 1ms) {
+    Bench bench(60);
+    bench.run(-1ms, 20 * period);
+    // What was exposed as the asking ended waits, and nothing comes before it goes on: nobody wanted it.
+    auto& script = bench.camera.script;
+    while (script.size() > 1 && script[1].at < at(20 * period + pause)) script.erase(script.begin() + 1);
+    const int given = bench.run(20 * period + pause, 55 * period);
+    EXPECT_FALSE(bench.checked.error()) << bench.checked.error()->what << ", after " << seconds(pause);
+    EXPECT_GE(given, 20) << seconds(pause);
+  }
+}
+
+TEST(CheckedCamera, a_camera_that_is_always_a_little_late_is_found_out) {
+  for (Duration late = 0ms; late < 12ms; late += 1ms) {
+    Bench bench(60);
+    for (auto& delivery : bench.camera.script) delivery.at = delivery.frame.stamp + 61ms + late;
+    bench.run(-1ms, 60 * period);
+    EXPECT_TRUE(bench.checked.error()) << seconds(late);
+    EXPECT_EQ(bench.checked.counters().given, 0U) << seconds(late);
+  }
+}
+
 TEST(CheckedCamera, passes_on_the_cameras_own_error) {
   Bench bench(1);
   bench.camera.own_error = DeviceError{DeviceErrorKind::disconnected, "camera", "gone", at(0ms)};

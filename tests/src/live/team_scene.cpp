@@ -189,26 +189,29 @@ std::string all_of(Member& member) {
 // - the gyro's line: the same, or the kernel's own workers that carry a terminal's bytes. These run as other programs
 //   do, so that what the rink's renderers wait is what those wait;
 // - pictures: whoever renders them and whoever looks at them;
-// - gripper and arm: the threads that talk to them.
+// - gripper and arm: the threads that talk to them;
+// - an aim that was not taken: pictures again, over the whole way.
 bool TeamScene::was_late(const Told& given_up) const {
   struct Excuse {
     const char* word;
     bool control;    ///< of a control loop or the rink's world; else of any thread of theirs
     Duration least;  ///< of waiting within 50 ms: a good part of what the limit behind the word leaves
+    Duration before = 500ms;
   };
-  constexpr std::array<Excuse, 8> excuses{{{"control loop did not run", true, 15ms},
+  constexpr std::array<Excuse, 9> excuses{{{"control loop did not run", true, 15ms},
                                            {"control period: too long", true, 15ms},
                                            {"no new set-point", true, 15ms},
                                            {"no feedback", true, 15ms},
                                            {"no measurement arrives", false, 25ms},
                                            {": stale", false, 40ms},
                                            {"after its exposure", false, 40ms},
+                                           {"no valid release ahead", false, 40ms, 10s},
                                            {"refreshes came too late", false, 25ms}}};
-  constexpr Duration before = 500ms;
-  const Stamp from = given_up.at - before;
   for (const Excuse& excuse : excuses) {
     if (given_up.what.find(excuse.word) == std::string::npos) continue;
-    const auto waited = [&](const char* who) { return watch_.longest(who, excuse.control, from, given_up.at + 100ms); };
+    const auto waited = [&](const char* who) {
+      return watch_.longest(who, excuse.control, given_up.at - excuse.before, given_up.at + 100ms);
+    };
     const Duration longest = std::max({waited("machine"), waited("thrower"), waited("rink"), waited("skip")});
     std::printf("%s: within 50 ms of those before, a thread waited %.1f ms for a processor; %.1f ms excuse it\n",
                 given_up.what.c_str(), 1e3 * seconds(longest), 1e3 * seconds(excuse.least));
