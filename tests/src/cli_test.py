@@ -4,8 +4,10 @@ import importlib.util
 import json
 import math
 import os
-import shutil
 import re
+import resource
+import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -196,6 +198,50 @@ class Link(unittest.TestCase):
         for words in (["--domain", "233"], ["--days", "0"], ["--skip", "a/b"], ["--observer", "skip"]):
             refused = run("keys", "--out", os.path.join(self.folder.name, "none"), *words)
             self.assertEqual(refused.returncode, 2, words)
+
+    def test_names_whose_files_would_collide(self):
+        keys = os.path.join(self.folder.name, "none")
+        for words, told in ((["--observer", "ca"], "'ca'"), (["--skip", "CA"], "'CA'"), (["--thrower", "identity_ca"], "'identity_ca'"),
+                            (["--observer", "permissions_ca"], "own files"), (["--observer", "governance"], "own files"),
+                            (["--observer", "thrower"], "two robots"), (["--observer", "Skip"], "two robots"),
+                            (["--observer", "a", "--observer", "a"], "two robots"), (["--observer", "../a"], "no name"),
+                            (["--observer", "a.key"], "no name"), (["--observer", "x" * 65], "no name")):
+            refused = run("keys", "--out", keys, *words)
+            self.assertEqual(refused.returncode, 2, words)
+            self.assertIn(told, refused.stderr)
+            self.assertFalse(os.path.exists(keys), words)
+
+    def test_a_folder_with_a_robots_keys(self):
+        keys = os.path.join(self.folder.name, "keys")
+        os.mkdir(keys)
+        own = os.path.join(keys, "skip.key.pem")
+        with open(own, "w", encoding="utf-8") as f:
+            f.write("a key")
+        refused = run("keys", "--out", keys)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("skip.key.pem", refused.stderr)
+        with open(own, encoding="utf-8") as f:
+            self.assertEqual(f.read(), "a key")
+        self.assertEqual(run("keys", "--out", own).returncode, 2)
+
+    def test_a_disk_that_is_full_leaves_no_keys_behind(self):
+        def small_files(limit):
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        for limit in (0, 400, 1000):
+            keys = os.path.join(self.folder.name, "deep", "keys")
+            failed = subprocess.run([HOGLINE, "keys", "--out", keys], capture_output=True, text=True, check=False,
+                                    preexec_fn=lambda: small_files(limit))
+            self.assertEqual(failed.returncode, 3, failed.stdout)
+            self.assertIn("no keys were made", failed.stderr)
+            self.assertEqual(os.listdir(self.folder.name), [])
+        self.assertEqual(run("keys", "--out", keys).returncode, 0)
+
+    def test_a_folder_that_can_not_be_made(self):
+        for folder in ("/proc/x", "/proc/self/x/y"):
+            failed = run("keys", "--out", folder)
+            self.assertEqual(failed.returncode, 3, failed.stderr)
+            self.assertIn(folder[:7], failed.stderr)
 
     def test_a_rig_without_a_link(self):
         refused = run("link", "--rig", RIG)
@@ -524,4 +570,4 @@ class Turn(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
