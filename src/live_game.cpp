@@ -7,6 +7,7 @@
 
 #include "hw/clock.hpp"
 #include "src/live/process.hpp"
+#include "src/output/output_folder.hpp"
 
 namespace hogline {
 namespace {
@@ -76,6 +77,7 @@ void LiveGame::run(const std::stop_token& stop) {
 void LiveGame::referee(const std::stop_token& stop) {
   LiveThrows throws(robot_, calls_, skill_, ice_,
                     [this](const char* event, const std::string& what) { tell(event, what); });
+  const OutputFolder folder("--out", table_.out);
   GameTable table(table_, sheet_width_m_, skill_, [&throws] { return throws.ice(); });
   tell("table", "waits for whoever decides");
   Listener listener(*this, table.journal());

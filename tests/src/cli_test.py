@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
+import fcntl
 import importlib.util
 import json
 import math
@@ -14,7 +15,7 @@ import sys
 import tempfile
 import unittest
 
-HOGLINE, SOURCE = sys.argv[1], sys.argv[2]
+HOGLINE, SOURCE = os.path.abspath(sys.argv[1]), sys.argv[2]
 RIG = os.path.join(SOURCE, "config/rigs/practice.yaml")
 SCENE = os.path.join(SOURCE, "tests/data/near/near-11-000.jpg")
 
@@ -174,6 +175,50 @@ class WrongUse(unittest.TestCase):
 
     def test_no_subcommand(self):
         self.assertEqual(run().returncode, 2)
+
+
+class OneFolderOneProgram(unittest.TestCase):
+    """A folder that a command fills over time is one program's at a time."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = os.path.join(self.folder.name, "out")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_folder_in_use_is_refused(self):
+        os.mkdir(self.out)
+        held = os.open(self.out, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            for words in (["game", "--outcome-model"], ["game"], ["turn"], ["demo"], ["throw"], ["skip"], ["skips"],
+                          ["campaign", "--throws", "1"], ["campaign", "--faults", "all"], ["sights", "--throws", "1"],
+                          ["track", "--rig", os.path.join(SOURCE, "config/rigs/skip.yaml"), SOURCE]):
+                refused = run(*words, "--out", self.out)
+                self.assertEqual(refused.returncode, 2, words)
+                self.assertIn("another program is writing into this folder", refused.stderr)
+                self.assertIn(self.out, refused.stderr)
+        finally:
+            os.close(held)
+        self.assertEqual(os.listdir(self.out), [])
+
+    def test_a_dead_game_leaves_its_folder_free(self):
+        with subprocess.Popen([HOGLINE, "game", "--outcome-model", "--team0", "dc:0", "--connect", "100", "--out", self.out],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as waiting:
+            self.assertIn("waits for its client", waiting.stderr.readline())
+            refused = run("game", "--outcome-model", "--ends", "1", "--out", self.out)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            waiting.kill()
+        played = run("game", "--outcome-model", "--ends", "1", "--out", self.out)
+        self.assertEqual(played.returncode, 0, played.stderr)
+
+    def test_a_turn_writes_into_its_own_folder_alone(self):
+        result = subprocess.run([HOGLINE, "turn", "--seed", "3", "--out", "mine"], capture_output=True, text=True,
+                                check=False, cwd=self.folder.name)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(os.listdir(self.folder.name), ["mine"])
+        self.assertNotIn("game.jsonl", os.listdir(os.path.join(self.folder.name, "mine")))
 
 
 class Link(unittest.TestCase):
