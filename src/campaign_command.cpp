@@ -20,6 +20,7 @@
 #include "src/faults/random_faults.hpp"
 #include "src/faults/strike_journal.hpp"
 #include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -97,7 +98,7 @@ std::string number_or_range(const std::string& text) {
 namespace {
 
 int run_faults_at_random(const CampaignOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   auto chosen = faults::faults_of_any_moment();
   if (options.faults != "all") {
     std::erase_if(chosen, [&](const auto* fault) { return !faults::mentions(*fault, options.faults); });

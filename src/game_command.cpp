@@ -11,6 +11,7 @@
 #include "src/exit_status.hpp"
 #include "src/game/simulated_throws.hpp"
 #include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/team/throw_table.hpp"
 
 namespace hogline {
@@ -56,29 +57,27 @@ int play_on_outcome_model(const GameOptions& options) {
   return print_end(referee);
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; is the disk full?", path.string()));
-}
-
 /// A table that has each row as soon as there is one: who ends the program has what was thrown till then.
 class RowFile {
  public:
   RowFile(const std::filesystem::path& path, const std::string& header) : path_(path) {
-    std::filesystem::create_directories(path.parent_path());
     stream_.open(path, std::ios::binary);
     add(header);
-    if (!stream_) throw std::runtime_error(path.string() + ": can not be written; check the folder");
   }
-  void add(const std::string& row) { stream_ << row << std::flush; }
+  void add(const std::string& row) {
+    stream_ << row << std::flush;
+    check();
+  }
   void close() {
     stream_.close();
-    if (!stream_) throw std::runtime_error(path_.string() + ": can not be written; is the disk full?");
+    check();
   }
 
  private:
+  void check() const {
+    if (!stream_) throw std::runtime_error(path_.string() + ": can not be written; check the disk's space");
+  }
+
   std::filesystem::path path_;
   std::ofstream stream_;
 };
@@ -143,8 +142,8 @@ int play_with_robots(const GameOptions& options) {
     summary += fmt::format("\nend {}, shot {}: {}, decided by {:.0f} mm{}\n", d.end + 1, d.shot + 1, d.what,
                            1e3 * d.margin_m, d.a_measure ? " (a measure)" : "");
   }
-  write(out / "summary.md", summary);
-  write(out / "figures.json", figures_json(truth.figures(), records));
+  replace_text(out / "summary.md", summary);
+  replace_text(out / "figures.json", figures_json(truth.figures(), records));
   fmt::print(stderr, "\n{}\n", summary);
   return failure.empty() ? print_end(referee) : tell_no_game(failure);
 }
@@ -152,7 +151,7 @@ int play_with_robots(const GameOptions& options) {
 }  // namespace
 
 int run_game(const GameOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   return options.outcome_model ? play_on_outcome_model(options) : play_with_robots(options);
 }
 

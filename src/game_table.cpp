@@ -64,8 +64,10 @@ GameOffer offer_of(const TableOptions& options, double sheet_width_m, const serv
   return offer;
 }
 
-std::ofstream opened(const std::filesystem::path& path) {
-  std::filesystem::create_directories(path.parent_path());
+/// Where there is no folder, no file either.
+std::ofstream opened(const std::filesystem::path& folder, const char* name) {
+  if (folder.empty()) return {};
+  const std::filesystem::path path = folder / name;
   std::ofstream stream(path, std::ios::binary);
   if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; check the folder", path.string()));
   return stream;
@@ -83,8 +85,8 @@ GameTable::GameTable(const TableOptions& options, double sheet_width_m, const se
     : out_(options.out),
       identity_{game_id(), date_time()},
       offer_(offer_of(options, sheet_width_m, skill)),
-      lines_(opened(std::filesystem::path(out_) / "game.jsonl")),
-      record_(opened(std::filesystem::path(out_) / "game.dcl2")),
+      lines_(opened(out_, "game.jsonl")),
+      record_(opened(out_, "game.dcl2")),
       log_(record_, date_time),
       journal_(
           [this, print = options.print](const std::string& line) {
@@ -151,9 +153,10 @@ void GameTable::play(game::Referee& referee, const std::function<bool()>& enough
 }
 
 void GameTable::close() {
+  if (out_.empty()) return;
   lines_.close();
   record_.close();
-  if (!lines_ || !record_) throw std::runtime_error(out_ + ": can not be written; is the disk full?");
+  if (!lines_ || !record_) throw std::runtime_error(out_ + ": can not be written; check the disk's space");
 }
 
 }  // namespace hogline

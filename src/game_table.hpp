@@ -23,8 +23,8 @@ struct TableOptions {
   double thinking_s = 2280.0;       ///< each team's for the whole game
   double extra_thinking_s = 270.0;  ///< each team's for each extra end
   double connect_s = 300.0;         ///< how long clients are waited for
-  std::string out = "out/game";
-  bool print = true;  ///< each event also on stdout
+  std::string out = "out/game";     ///< a folder that is there; empty: nothing is written down
+  bool print = true;                ///< each event also on stdout
 };
 
 /// Empty when `text` names a strategist, else what is allowed: a check for the command line.

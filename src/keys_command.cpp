@@ -29,7 +29,7 @@ int run_keys(const KeysOptions& options) {
                               .members = team,
                               .from = hw::TeamTime{std::chrono::system_clock::now().time_since_epoch()},
                               .days = options.days});
-  } catch (const hw::link::LinkError& error) {
+  } catch (const hw::link::TeamKeysRefused& error) {
     throw config::ConfigError("command line", 0, "keys", "", error.what());
   }
   fmt::print("{}: keys for {} robots in DDS domain {}, good for {} days\n", options.out, team.size(), options.domain,

@@ -9,6 +9,7 @@
 
 #include "hw/clock.hpp"
 #include "src/live/process.hpp"
+#include "src/output/output_folder.hpp"
 
 namespace hogline {
 namespace {
@@ -124,6 +125,7 @@ void LiveGame::referee(const std::stop_token& stop) {
   here.out = folder_without_a_game(table_.out);
   LiveThrows throws(robot_, calls_, skill_, ice_,
                     [this](const char* event, const std::string& what) { tell(event, what); });
+  const OutputFolder folder("--out", here.out);
   GameTable table(here, sheet_width_m_, skill_, [&throws] { return throws.ice(); });
   tell("table", "waits for whoever decides; the record is in " + here.out);
   Listener listener(*this, table.journal());

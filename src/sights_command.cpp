@@ -5,12 +5,13 @@
 #include "src/campaign/sights.hpp"
 #include "src/exit_status.hpp"
 #include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
 int run_sights(const CampaignOptions& options) {
   const campaign::Plan plan(plan_of(options));
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   fmt::print(stderr, "watching {} rendered throws\n", options.throws);
   int done = 0;
   const auto sightings = campaign::watch_throws(

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <optional>
+
 #include "src/config/config_error.hpp"
 #include "src/config/embedded.hpp"
 #include "src/config/scenario.hpp"
 #include "src/exit_status.hpp"
 #include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/skip/ice_file.hpp"
 #include "src/skip/skip_report.hpp"
 #include "src/skip/skip_set.hpp"
@@ -57,7 +61,7 @@ SkipRequest request_of(const SkipOptions& options) {
 }  // namespace
 
 int run_skip(const SkipOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   SkipRequest request = request_of(options);
   if (!options.ice.empty()) check_file("--ice", options.ice);
   if (!options.ice.empty()) request.ice = load_ice(options.ice).value_or(request.ice);
@@ -65,7 +69,10 @@ int run_skip(const SkipOptions& options) {
     throw config::ConfigError("command line", 0, "--record", options.record,
                               "the oracle looks at no pictures: leave --oracle out to record them");
   }
-  if (!options.record.empty()) check_folder("--record", options.record);
+  std::optional<OutputFolder> record;
+  if (!options.record.empty() &&
+      std::filesystem::weakly_canonical(options.record) != std::filesystem::weakly_canonical(options.out))
+    record.emplace("--record", options.record);
   request.record = options.record;
   if (!options.json_only) fmt::print(stderr, "on the simulated rink: no device of the rig is opened\n");
   SkipProgress progress;
@@ -80,7 +87,7 @@ int run_skip(const SkipOptions& options) {
 }
 
 int run_skips(const SkipsOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   SkipSet set{.rig = load_skip_rig_or_practice(options.rig),
               .scenario = options.scenario,
               .first_seed = options.seed,

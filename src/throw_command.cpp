@@ -5,7 +5,7 @@
 
 #include "src/campaign/recall.hpp"
 #include "src/exit_status.hpp"
-#include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/throw_request.hpp"
 
 namespace hogline {
@@ -23,7 +23,7 @@ namespace {
 int throw_again(const ThrowOptions& options) {
   auto [request, draw, row] = campaign::recall(options.from);
   if (!options.seer.empty()) request.eyes = eyes_of(options.seer);
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   const ThrowOutcome outcome = carry_out(options, request);
   const bool same = campaign::line_of(campaign::row_of(draw, outcome.result)) == campaign::line_of(row);
   fmt::print(stderr, "{}\n",
@@ -36,6 +36,7 @@ int throw_again(const ThrowOptions& options) {
 
 int run_throw(const ThrowOptions& options) {
   if (!options.from.empty()) return throw_again(options);
+  const OutputFolder folder("--out", options.out);
   const ThrowRequest request = make_request(options);
   const ThrowOutcome outcome = carry_out(options, request);
   if (!options.json_only) fmt::print("pictures, plots and the log are in {}\n", options.out);

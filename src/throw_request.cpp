@@ -74,9 +74,7 @@ class StateTeller {
 
 Eyes eyes_of(const std::string& seer) { return seer == "oracle" ? Eyes::oracle : Eyes::vision; }
 
-// The folder before the throw, not after it.
 ThrowRequest make_request(const ThrowOptions& options) {
-  check_folder("--out", options.out);
   ThrowRequest request;
   request.rig = options.rig.empty()
                     ? config::parse_thrower_rig(config::embedded_file("rigs/practice.yaml"), "practice rig")

@@ -11,6 +11,7 @@
 #include "src/config/config_error.hpp"
 #include "src/exit_status.hpp"
 #include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/skip/ice_file.hpp"
 #include "src/skip/skip_report.hpp"
 #include "src/skip/skip_vision.hpp"
@@ -48,7 +49,7 @@ FrameLoader loader(const config::Rig& rig) {
 }  // namespace
 
 int run_track(const TrackOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   const config::SkipRig rig = config::load_skip_rig(options.rig);
   const SkipRecording recording = read_skip_recording(options.folder);
   servo::SkipConfig config = rig.skip;

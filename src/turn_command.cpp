@@ -11,7 +11,7 @@
 #include "src/exit_status.hpp"
 #include "src/game/built_in_strategist.hpp"
 #include "src/game_table.hpp"
-#include "src/output/output_file.hpp"
+#include "src/output/output_folder.hpp"
 #include "src/throw_request.hpp"
 #include "src/turn_report.hpp"
 
@@ -61,7 +61,7 @@ struct PlayedTurn {
 };
 
 PlayedTurn play_turn(const TurnOptions& options) {
-  check_folder("--out", options.out);
+  const OutputFolder folder("--out", options.out);
   const TeamRequest request = team_request(options.team);
   SimulatedTeam team(request);
   const servo::ThrowerSkill skill = skill_of(request.thrower);
@@ -77,6 +77,7 @@ PlayedTurn play_turn(const TurnOptions& options) {
 
   TableOptions seats;
   seats.ends = 1;
+  seats.out.clear();
   seats.address = options.address;
   (options.stones % 2 == 0 ? seats.first : seats.second) = options.strategist;
   GameTable table(seats, request.scenario.sheet.width_m, skill, [&robots] { return robots.ice(); });

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "src/drawing/contact_sheet.hpp"
 #include "src/drawing/picture_overlay.hpp"
 #include "src/drawing/sheet_plan.hpp"
+#include "src/output/output_file.hpp"
 #include "src/stones_setup.hpp"
 #include "src/team/throw_table.hpp"
 
@@ -261,10 +261,7 @@ void write_turn(const std::string& folder, const ToldTurn& told) {
                           {{views.far, "5  the skip follows the stone"}, {views.house_after, "6  the skip counts"}},
                           {{close, caption_of_house(*told.record)}}},
                          1100));
-  std::ofstream stream(out / "turn.json", std::ios::binary);
-  stream << turn_json(*told.record) << "\n";
-  stream.close();
-  if (!stream) throw std::runtime_error(fmt::format("{}: can not be written; check the folder", folder));
+  replace_text(out / "turn.json", turn_json(*told.record) + "\n");
 }
 
 }  // namespace hogline

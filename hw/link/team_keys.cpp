@@ -9,18 +9,13 @@
 #include <openssl/rand.h>
 #include <openssl/x509v3.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <set>
 
-#include "hw/link/link_error.hpp"
+#include "hw/link/key_folder.hpp"
+#include "hw/link/team_keys_check.hpp"
 
 namespace hogline::hw::link {
 namespace {
-
-namespace fs = std::filesystem;
 
 template <auto release>
 struct Release {
@@ -46,26 +41,6 @@ template <typename T>
 T* required(T* made, const std::string& what) {
   require(made != nullptr, what);
   return made;
-}
-
-void check(const TeamKeysRequest& request) {
-  std::set<std::string> names;
-  for (const TeamMember& member : request.members) {
-    const bool fine = !member.robot.empty() && member.robot.size() <= 64 &&
-                      std::all_of(member.robot.begin(), member.robot.end(),
-                                  [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
-    if (!fine) throw LinkError(fmt::format("'{}' is no name: use letters, digits, - and _", member.robot));
-    if (!names.insert(member.robot).second) throw LinkError(fmt::format("two robots are named '{}'", member.robot));
-  }
-  if (names.empty()) throw LinkError("keys for nobody: name at least one robot");
-  if (request.days < 1) throw LinkError("keys must hold for at least one day");
-  std::error_code nothing;
-  if (fs::exists(fs::path(request.folder) / "ca.key.pem", nothing)) {
-    throw LinkError(
-        fmt::format("{} holds a team's keys: choose another folder, or remove it if all robots are to get "
-                    "new keys",
-                    request.folder));
-  }
 }
 
 Key new_key() { return Key(required(EVP_EC_gen("P-256"), "a new P-256 key")); }
@@ -113,65 +88,75 @@ Certificate certificate_of(const std::string& common_name, EVP_PKEY* key, X509* 
   return certificate;
 }
 
-Bio file_to_write(const fs::path& path, bool secret) {
-  std::error_code failure;
-  std::ofstream(path, std::ios::trunc).close();
-  fs::permissions(path,
-                  secret
-                      ? fs::perms::owner_read | fs::perms::owner_write
-                      : fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read,
-                  failure);
-  if (failure) throw LinkError(fmt::format("{} can not be written: {}", path.string(), failure.message()));
-  return Bio(required(BIO_new_file(path.c_str(), "w"), path.string() + " can not be written"));
+std::string text_of(BIO* bio) {
+  char* text = nullptr;
+  const long size = BIO_get_mem_data(bio, &text);
+  return {text, static_cast<std::size_t>(size)};
 }
 
-void write_key(const fs::path& path, EVP_PKEY* key) {
-  require(PEM_write_bio_PrivateKey(file_to_write(path, true).get(), key, nullptr, nullptr, 0, nullptr, nullptr) == 1,
-          path.string());
+Bio memory() { return Bio(required(BIO_new(BIO_s_mem()), "memory")); }
+
+std::string key_text(EVP_PKEY* key) {
+  const Bio bio = memory();
+  require(PEM_write_bio_PrivateKey(bio.get(), key, nullptr, nullptr, 0, nullptr, nullptr) == 1, "writing a key");
+  return text_of(bio.get());
 }
 
-void write_certificate(const fs::path& path, X509* certificate) {
-  require(PEM_write_bio_X509(file_to_write(path, false).get(), certificate) == 1, path.string());
+std::string certificate_text(X509* certificate) {
+  const Bio bio = memory();
+  require(PEM_write_bio_X509(bio.get(), certificate) == 1, "writing a certificate");
+  return text_of(bio.get());
 }
 
 // S/MIME with the text in clear beside its signature.
-void write_signed(const fs::path& path, const std::string& document, X509* authority, EVP_PKEY* key) {
+std::string signed_text(const std::string& document, X509* authority, EVP_PKEY* key) {
   const auto text = [&] {
-    return Bio(required(BIO_new_mem_buf(document.data(), static_cast<int>(document.size())), path.string()));
+    return Bio(required(BIO_new_mem_buf(document.data(), static_cast<int>(document.size())), "a document"));
   };
   constexpr int flags = PKCS7_DETACHED | PKCS7_TEXT;
-  Signature signature(required(PKCS7_sign(authority, key, nullptr, text().get(), flags), "signing " + path.string()));
-  require(SMIME_write_PKCS7(file_to_write(path, false).get(), signature.get(), text().get(), flags) == 1,
-          path.string());
+  Signature signature(required(PKCS7_sign(authority, key, nullptr, text().get(), flags), "signing a document"));
+  const Bio bio = memory();
+  require(SMIME_write_PKCS7(bio.get(), signature.get(), text().get(), flags) == 1, "writing a signed document");
+  return text_of(bio.get());
+}
+
+struct KeyFile {
+  std::string name;
+  std::string text;
+  bool secret = false;
+};
+
+std::vector<KeyFile> key_files(const TeamKeysRequest& request) {
+  const Key authority_key = new_key();
+  const Certificate authority =
+      certificate_of("hogline team authority", authority_key.get(), nullptr, nullptr, request);
+  const auto sign = [&](const std::string& document) {
+    return signed_text(document, authority.get(), authority_key.get());
+  };
+  std::vector<KeyFile> files{{"identity_ca.pem", certificate_text(authority.get())},
+                             {"permissions_ca.pem", certificate_text(authority.get())},
+                             {"governance.p7s", sign(governance_xml(request.domain))}};
+  const TeamTime begin = request.from - std::chrono::hours{1};
+  const TeamTime end = request.from + std::chrono::hours{24} * request.days;
+  for (const TeamMember& member : request.members) {
+    const Key key = new_key();
+    const Certificate certificate =
+        certificate_of(member.robot, key.get(), authority.get(), authority_key.get(), request);
+    files.push_back({member.robot + ".key.pem", key_text(key.get()), true});
+    files.push_back({member.robot + ".cert.pem", certificate_text(certificate.get())});
+    files.push_back({member.robot + ".permissions.p7s", sign(permissions_xml(member, request.domain, begin, end))});
+  }
+  files.push_back({"ca.key.pem", key_text(authority_key.get()), true});
+  return files;
 }
 
 }  // namespace
 
 void make_team_keys(const TeamKeysRequest& request) {
-  check(request);
-  const fs::path folder = request.folder;
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw LinkError(fmt::format("{} can not be made: {}", request.folder, failure.message()));
-
-  const Key authority_key = new_key();
-  const Certificate authority =
-      certificate_of("hogline team authority", authority_key.get(), nullptr, nullptr, request);
-  write_key(folder / "ca.key.pem", authority_key.get());
-  write_certificate(folder / "identity_ca.pem", authority.get());
-  write_certificate(folder / "permissions_ca.pem", authority.get());
-  write_signed(folder / "governance.p7s", governance_xml(request.domain), authority.get(), authority_key.get());
-
-  const TeamTime begin = request.from - std::chrono::hours{1};
-  const TeamTime end = request.from + std::chrono::hours{24} * request.days;
-  for (const TeamMember& member : request.members) {
-    const Key key = new_key();
-    write_key(folder / (member.robot + ".key.pem"), key.get());
-    write_certificate(folder / (member.robot + ".cert.pem"),
-                      certificate_of(member.robot, key.get(), authority.get(), authority_key.get(), request).get());
-    write_signed(folder / (member.robot + ".permissions.p7s"), permissions_xml(member, request.domain, begin, end),
-                 authority.get(), authority_key.get());
-  }
+  check_request(request);
+  KeyFolder folder(request.folder);
+  for (const KeyFile& file : key_files(request)) folder.add(file.name, file.text, file.secret);
+  folder.keep();
 }
 
 }  // namespace hogline::hw::link

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hw/link/link_error.hpp"
 #include "hw/team_messages.hpp"
 
 namespace hogline::hw::link {
@@ -18,22 +19,28 @@ enum class TeamRole {
 };
 
 struct TeamMember {
-  std::string robot;  ///< the name in its rig file: letters, digits, - and _
+  /// The name in its rig file: up to 64 letters, digits, - and _; not ca, identity_ca, permissions_ca or governance.
+  std::string robot;
   TeamRole role = TeamRole::observer;
 };
 
 struct TeamKeysRequest {
   std::string folder;  ///< made if it is not there; must not hold keys
   std::uint32_t domain = 0;
-  std::vector<TeamMember> members;  ///< each robot once
+  std::vector<TeamMember> members;  ///< each robot once; names that differ in case alone are one
   TeamTime from{};                  ///< the present, by the wall clock
   int days = 365;                   ///< for which they hold
 };
 
+/// Keys that are not made because of what was asked: a name is none or twice, the folder holds keys already.
+struct TeamKeysRefused : LinkError {
+  using LinkError::LinkError;
+};
+
 /// Writes identity_ca.pem, permissions_ca.pem, ca.key.pem, governance.p7s and for each robot NAME.cert.pem,
 /// NAME.key.pem and NAME.permissions.p7s; keys are readable by their owner alone. A robot's machine needs its own three
-/// files, the two CA certificates and the governance; ca.key.pem stays at home. Throws LinkError: the folder holds keys
-/// already, can not be written, a name is none or twice.
+/// files, the two CA certificates and the governance; ca.key.pem stays at home. Throws TeamKeysRefused, and LinkError
+/// where the folder can not be written; then nothing is left behind.
 void make_team_keys(const TeamKeysRequest& request);
 
 /// The governance document, before it is signed: who is not authenticated neither joins nor hears, and everything is

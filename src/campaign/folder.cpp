@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -117,9 +116,9 @@ std::vector<Row> read_rows(const std::string& path) {
   return rows;
 }
 
-Folder::Folder(const std::string& path, const Plan& plan, const std::string& program) : path_(path) {
-  check_folder("--out", path);
-  lock();
+Folder::Folder(const std::string& path, const Plan& plan, const std::string& program)
+    : path_(path), lock_("--out", path) {
+  open();
   take_up(plan, program);
   cut_unfinished();
   rows_ = campaign::read_rows(path);
@@ -129,13 +128,10 @@ Folder::Table::~Table() {
   if (descriptor >= 0) ::close(descriptor);
 }
 
-void Folder::lock() {
+void Folder::open() {
   const std::string table = path_ + "/throws.csv";
   table_.descriptor = ::open(table.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (table_.descriptor < 0) fail(table, "can not be opened");
-  if (::flock(table_.descriptor, LOCK_EX | LOCK_NB) != 0) {
-    throw ConfigError("command line", 0, "--out", path_, "another campaign is being thrown into this folder");
-  }
 }
 
 void Folder::take_up(const Plan& plan, const std::string& program) {

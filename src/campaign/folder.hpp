@@ -6,6 +6,7 @@
 
 #include "src/campaign/plan.hpp"
 #include "src/campaign/row.hpp"
+#include "src/output/output_folder.hpp"
 
 namespace hogline::campaign {
 
@@ -14,7 +15,8 @@ namespace hogline::campaign {
 class Folder {
  public:
   /// Begins a campaign, or takes one up again: a row that was not finished is cut off. Throws ConfigError when the
-  /// folder holds another plan, or was filled by another `program`; std::runtime_error when it can not be written.
+  /// folder holds another plan, was filled by another `program`, or is in use; std::runtime_error when it can not be
+  /// written.
   Folder(const std::string& path, const Plan& plan, const std::string& program);
 
   const std::vector<Row>& rows() const { return rows_; }
@@ -22,12 +24,12 @@ class Folder {
   void append(const Row& row);
 
  private:
-  void lock();
+  void open();
   void take_up(const Plan& plan, const std::string& program);
   void cut_unfinished();
   void write(const std::string& text);
 
-  /// The table's descriptor; closing it ends the lock.
+  /// The table's descriptor.
   struct Table {
     Table() = default;
     ~Table();
@@ -37,6 +39,7 @@ class Folder {
   };
 
   std::string path_;
+  OutputFolder lock_;
   std::vector<Row> rows_;
   Table table_;
 };

@@ -145,7 +145,7 @@ void add_keys(CLI::App& app, Chosen& chosen) {
       "Examples:\n"
       "  hogline keys --out keys --domain 7\n"
       "  hogline keys --out keys --observer scoreboard --observer coach --days 30\n"
-      "Exit status: 0 made, 2 wrong use (a folder that holds keys, a name that is none),\n"
+      "Exit status: 0 made, 2 wrong use (a folder that holds keys, a name that is none or that of another file),\n"
       "3 something outside failed (a disk).");
   keys->callback([kept, &chosen] { chosen = [kept] { return run_keys(*kept); }; });
 }

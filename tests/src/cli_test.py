@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 """The program's edges: wrong use is exit status 2 and one line that says what is allowed. cli_test.py HOGLINE SOURCE_DIR"""
+import fcntl
 import importlib.util
 import json
 import math
 import os
-import shutil
 import re
+import resource
+import shutil
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import unittest
 
-HOGLINE, SOURCE = sys.argv[1], sys.argv[2]
+HOGLINE, SOURCE = os.path.abspath(sys.argv[1]), sys.argv[2]
 RIG = os.path.join(SOURCE, "config/rigs/practice.yaml")
 SCENE = os.path.join(SOURCE, "tests/data/near/near-11-000.jpg")
 
@@ -174,6 +177,50 @@ class WrongUse(unittest.TestCase):
         self.assertEqual(run().returncode, 2)
 
 
+class OneFolderOneProgram(unittest.TestCase):
+    """A folder that a command fills over time is one program's at a time."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.out = os.path.join(self.folder.name, "out")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_folder_in_use_is_refused(self):
+        os.mkdir(self.out)
+        held = os.open(self.out, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX)
+            for words in (["game", "--outcome-model"], ["game"], ["turn"], ["demo"], ["throw"], ["skip"], ["skips"],
+                          ["campaign", "--throws", "1"], ["campaign", "--faults", "all"], ["sights", "--throws", "1"],
+                          ["track", "--rig", os.path.join(SOURCE, "config/rigs/skip.yaml"), SOURCE]):
+                refused = run(*words, "--out", self.out)
+                self.assertEqual(refused.returncode, 2, words)
+                self.assertIn("another program is writing into this folder", refused.stderr)
+                self.assertIn(self.out, refused.stderr)
+        finally:
+            os.close(held)
+        self.assertEqual(os.listdir(self.out), [])
+
+    def test_a_dead_game_leaves_its_folder_free(self):
+        with subprocess.Popen([HOGLINE, "game", "--outcome-model", "--team0", "dc:0", "--connect", "100", "--out", self.out],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as waiting:
+            self.assertIn("waits for its client", waiting.stderr.readline())
+            refused = run("game", "--outcome-model", "--ends", "1", "--out", self.out)
+            self.assertEqual((refused.returncode, refused.stdout), (2, ""))
+            waiting.kill()
+        played = run("game", "--outcome-model", "--ends", "1", "--out", self.out)
+        self.assertEqual(played.returncode, 0, played.stderr)
+
+    def test_a_turn_writes_into_its_own_folder_alone(self):
+        result = subprocess.run([HOGLINE, "turn", "--seed", "3", "--out", "mine"], capture_output=True, text=True,
+                                check=False, cwd=self.folder.name)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(os.listdir(self.folder.name), ["mine"])
+        self.assertNotIn("game.jsonl", os.listdir(os.path.join(self.folder.name, "mine")))
+
+
 class Link(unittest.TestCase):
     """Keys and the link's own command; what goes over the wire is tested in tests/hw/link."""
 
@@ -196,6 +243,50 @@ class Link(unittest.TestCase):
         for words in (["--domain", "233"], ["--days", "0"], ["--skip", "a/b"], ["--observer", "skip"]):
             refused = run("keys", "--out", os.path.join(self.folder.name, "none"), *words)
             self.assertEqual(refused.returncode, 2, words)
+
+    def test_names_whose_files_would_collide(self):
+        keys = os.path.join(self.folder.name, "none")
+        for words, told in ((["--observer", "ca"], "'ca'"), (["--skip", "CA"], "'CA'"), (["--thrower", "identity_ca"], "'identity_ca'"),
+                            (["--observer", "permissions_ca"], "own files"), (["--observer", "governance"], "own files"),
+                            (["--observer", "thrower"], "two robots"), (["--observer", "Skip"], "two robots"),
+                            (["--observer", "a", "--observer", "a"], "two robots"), (["--observer", "../a"], "no name"),
+                            (["--observer", "a.key"], "no name"), (["--observer", "x" * 65], "no name")):
+            refused = run("keys", "--out", keys, *words)
+            self.assertEqual(refused.returncode, 2, words)
+            self.assertIn(told, refused.stderr)
+            self.assertFalse(os.path.exists(keys), words)
+
+    def test_a_folder_with_a_robots_keys(self):
+        keys = os.path.join(self.folder.name, "keys")
+        os.mkdir(keys)
+        own = os.path.join(keys, "skip.key.pem")
+        with open(own, "w", encoding="utf-8") as f:
+            f.write("a key")
+        refused = run("keys", "--out", keys)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("skip.key.pem", refused.stderr)
+        with open(own, encoding="utf-8") as f:
+            self.assertEqual(f.read(), "a key")
+        self.assertEqual(run("keys", "--out", own).returncode, 2)
+
+    def test_a_disk_that_is_full_leaves_no_keys_behind(self):
+        def small_files(limit):
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        for limit in (0, 400, 1000):
+            keys = os.path.join(self.folder.name, "deep", "keys")
+            failed = subprocess.run([HOGLINE, "keys", "--out", keys], capture_output=True, text=True, check=False,
+                                    preexec_fn=lambda: small_files(limit))
+            self.assertEqual(failed.returncode, 3, failed.stdout)
+            self.assertIn("no keys were made", failed.stderr)
+            self.assertEqual(os.listdir(self.folder.name), [])
+        self.assertEqual(run("keys", "--out", keys).returncode, 0)
+
+    def test_a_folder_that_can_not_be_made(self):
+        for folder in ("/proc/x", "/proc/self/x/y"):
+            failed = run("keys", "--out", folder)
+            self.assertEqual(failed.returncode, 3, failed.stderr)
+            self.assertIn(folder[:7], failed.stderr)
 
     def test_a_rig_without_a_link(self):
         refused = run("link", "--rig", RIG)
@@ -535,4 +626,4 @@ class Turn(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

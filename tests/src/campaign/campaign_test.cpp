@@ -128,7 +128,7 @@ TEST_F(Campaign, a_folder_in_use_or_with_a_strange_table_is_refused) {
   const Plan plan(practice());
   {
     const Folder open(folder("mine"), plan, "program");
-    refuses("mine", practice(), "program", "another campaign is being thrown");
+    refuses("mine", practice(), "program", "another program is writing");
   }
   fill("mine", plan, 2);
   std::ofstream(table("mine"), std::ios::app) << "a,b,c\n";

@@ -16,13 +16,13 @@ namespace hogline::live_test {
 /// How long a thread that could run did not, within one look of the watch.
 struct Wait {
   Stamp at{};
-  std::string who;       ///< the program, or "machine": nothing at all ran
+  std::string who;       ///< the program, or "machine": a processor stood
   bool control = false;  ///< its first thread: the control loop, or the rink's world
   Duration waited{};
 };
 
-/// Asks the kernel (/proc/PID/task/TID/schedstat: time spent waiting for a processor), and has a thread of its own that
-/// runs before all others: when that one sleeps too long, the whole machine stood.
+/// Asks the kernel (/proc/PID/task/TID/schedstat: time spent waiting for a processor), and has a thread of its own
+/// on each processor that runs before all others: when one of them sleeps too long, that processor stood.
 class MachineWatch {
  public:
   MachineWatch();
@@ -39,12 +39,14 @@ class MachineWatch {
   void look(Stamp now);
   void look_at(const std::string& who, pid_t process, Stamp now);
   void run(const std::stop_token& stop);
+  void run_on(std::size_t processor, const std::stop_token& stop);
 
   mutable std::mutex mutex_;  ///< over all that follows
   std::map<std::string, pid_t> processes_;
   std::map<pid_t, unsigned long long> waited_ns_;  ///< of each thread, when it was looked at last
   std::vector<Wait> waits_;
-  std::jthread thread_;  // last: it uses all of the above
+  std::jthread thread_;  // last, as are these: they use all of the above
+  std::vector<std::jthread> processors_;
 };
 
 }  // namespace hogline::live_test
