@@ -313,7 +313,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   const int trials = std::atoi(arguments[2]);
   std::mt19937 random(static_cast<std::uint32_t>(std::atol(arguments[3])));
-  TeamScene scene(arguments[1], {.whole_skip = true, .strategist = true});
+  TeamScene scene(arguments[1], {.whole_skip = true, .strategists = 1});
   std::vector<double> stops;
   int problems = 0;
   int moving = 0;

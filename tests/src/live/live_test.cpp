@@ -57,7 +57,7 @@ TEST(LiveTeam, a_shot_ordered_over_fast_dds_is_thrown_by_the_thrower_on_the_rink
     if (!thrown) {
       std::printf("%s", all_of(scene.thrower()).c_str());
       const auto aborted = scene.thrower().told_since(begin, "aborted");
-      in_time = in_time || !aborted || !is_lateness(aborted->what);
+      in_time = in_time || !aborted || !scene.was_late(*aborted);
       EXPECT_TRUE(scene.truth().back().held);
       continue;
     }

@@ -104,7 +104,7 @@ struct SecureTurn : testing::Test {
       const Stamp begin = now();
       if (scene.skip_waits()) return;
       const auto stopped = scene.skip().told_since(begin, "stopped");
-      ASSERT_TRUE(stopped && is_lateness(stopped->what)) << words();
+      ASSERT_TRUE(stopped && scene.was_late(*stopped)) << words();
       scene.skip().end();
     }
     FAIL() << words();
@@ -163,7 +163,7 @@ struct SecureTurn : testing::Test {
     const auto stopped = [&] { return scene.skip().told_since(since, "stopped"); };
     if (!wait_until([&] { return outcome() || stopped(); }, patience)) ADD_FAILURE() << words();
     if (!outcome()) {
-      EXPECT_TRUE(stopped() && is_lateness(stopped()->what)) << words();
+      EXPECT_TRUE(stopped() && scene.was_late(*stopped())) << words();
       return false;
     }
     EXPECT_TRUE(skip_is(since, "order", "released")) << words();
@@ -237,7 +237,7 @@ TEST_F(SecureTurn, is_played_to_its_rest_and_no_stranger_reads_or_changes_it) {
     strangers.at("second-skip")->end();  // it would command as soon as the first is gone, and so as soon as we are deaf
     if (!throws) {
       const auto aborted = scene.thrower().told_since(begin, "aborted");
-      in_time = in_time || !aborted || !is_lateness(aborted->what);
+      in_time = in_time || !aborted || !scene.was_late(*aborted);
       EXPECT_TRUE(scene.truth().back().held);
       std::printf("%s", all_of(scene.thrower()).c_str());
       continue;
