@@ -147,9 +147,17 @@ std::vector<StoneCandidate> CrowdScreening::worth_another_look(const StonePictur
 }
 
 void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
-  const auto granite = clubs_granite(stones);
-  if (!granite) return;
-  const std::vector<StoneCandidate> doubted = worth_another_look(picture, stones, *granite);
+  if (const auto granite = clubs_granite(stones)) {
+    glimpse_round_by_round(picture, worth_another_look(picture, stones, *granite), *granite, stones);
+  }
+}
+
+void CrowdScreening::look_behind(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  if (const auto granite = clubs_granite(stones)) glimpse_round_by_round(picture, {}, *granite, stones);
+}
+
+void CrowdScreening::glimpse_round_by_round(const StonePicture& picture, const std::vector<StoneCandidate>& doubted,
+                                            const Light& granite, std::vector<JudgedStone>& stones) {
   const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<KnownStone> newest = known_of(stones);
   std::vector<NearerStone> newcomers;
@@ -159,7 +167,7 @@ void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedS
     for (const StoneCandidate& c : doubted) {
       if (round == 0 || may_be_hidden(c.place, newcomers, eye)) candidates.push_back(c);
     }
-    glimpse_all(picture, candidates, *granite, stones);
+    glimpse_all(picture, candidates, granite, stones);
     newest.clear();
     newcomers.clear();
     for (std::size_t i = before; i < stones.size(); ++i) {

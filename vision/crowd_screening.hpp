@@ -30,6 +30,9 @@ class CrowdScreening {
   /// and legs hide left out. `stones` grows.
   void look_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
+  /// Of that only handles that show behind known stones: for views in which a doubt is seldom undone.
+  void look_behind(const StonePicture& picture, std::vector<JudgedStone>& stones);
+
   /// Stones that are not well told are fitted again from several places, with all the others known.
   void place_again(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
@@ -41,6 +44,8 @@ class CrowdScreening {
   std::vector<StoneCandidate> worth_another_look(const StonePicture& picture, const std::vector<JudgedStone>& stones,
                                                  const Light& granite) const;
   bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
+  void glimpse_round_by_round(const StonePicture& picture, const std::vector<StoneCandidate>& doubted,
+                              const Light& granite, std::vector<JudgedStone>& stones);
   void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
                    std::vector<JudgedStone>& stones);
   JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,

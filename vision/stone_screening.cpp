@@ -115,9 +115,11 @@ std::vector<NearerStone> StoneScreening::look_behind(const StonePicture& picture
 // All together: stones that hide each other, and the shape they share.
 void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone>& stones,
                             const std::vector<NearerStone>& nearer) {
+  const auto granite = clubs_granite(stones);
   std::vector<StoneStart> starts;
   for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) starts.push_back({s.fit.place});
+    if (s.doubt.empty())
+      starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt, s.before ? &*s.before : nullptr});
   }
   StoneFitOptions options = options_.all;
   options.nearer = nearer;
@@ -129,7 +131,9 @@ void StoneScreening::refine(const StonePicture& picture, std::vector<JudgedStone
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty()) continue;
     s.fit = result.stones[next++];
-    s.doubt = doubt_of(s.candidate, s.fit, may_be_hidden(s.fit.place, others, picture.eye().head<2>()));
+    const bool hidden = may_be_hidden(s.fit.place, others, picture.eye().head<2>());
+    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !hidden && !s.before)
+                                    : doubt_of(s.candidate, s.fit, hidden);
   }
   compare_granite(stones);
   part_overlapping(picture, stones);

@@ -90,7 +90,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (fit.handle_told < least_handle_told * fit.telling) return "nothing of a handle";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
   if (candidate.votes < few_votes && fit.explained < well_explained) return "few votes, and not well explained";
-  if ((fit.place - candidate.place).norm() > most_drift_m) return "the fit left the place of the votes";
+  if ((fit.place - candidate.place).norm() > candidate.drift_m) return "the fit left the place of the votes";
   return {};
 }
 

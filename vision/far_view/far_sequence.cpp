@@ -168,6 +168,7 @@ FarSearch FarSequence::Impl::search(Stamp stamp, const std::vector<Predicted>& p
   for (const Refused& r : refused) taken.push_back(view.place_of(r.place));
   const SheetCamera& camera = *view.levels.middle().camera;
   asked.clear();
+  search.behind = search_all;  // such a picture takes its time, and there is all of it on each level
   for (const FarPlace& place : view.scan_part(area, part_due(stamp))) {
     const bool known_already = std::any_of(taken.begin(), taken.end(), [&](const FarPlace& other) {
       return std::abs(other.pixel.x - place.pixel.x) < other.half_width_px &&

@@ -25,6 +25,17 @@ constexpr double grip_top_m = 0.20;     // over the ice
 constexpr double spare_px = 12.0;       // about what is looked at of a stone
 constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
 
+// What was found on the level before, near the border of the two, is not found again.
+void make_room(const StonePicture& picture, const std::vector<NearerStone>& nearer, std::vector<JudgedStone>& stones) {
+  for (JudgedStone& s : stones) {
+    const bool taken = std::any_of(nearer.begin(), nearer.end(), [&](const NearerStone& n) {
+      return stand_in_one_place(s.fit.place, n.place, picture);
+    });
+    if (s.doubt.empty() && taken) s.doubt = no_room;
+  }
+  part_overlapping(picture, stones);
+}
+
 }  // namespace
 
 ScreeningOptions careful_screening() {
@@ -92,7 +103,8 @@ FarView::Impl::Impl(const FarSetup& given, const ScreeningOptions& options)
       response(given.camera.gamma),
       sheet(given.camera),
       levels(given.camera.intrinsics),
-      screening(options) {}
+      screening(options),
+      crowd(given.teams) {}
 
 FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan& plan, FarSketch* sketch) {
   FarPercept seen;
@@ -110,7 +122,7 @@ FarPercept FarView::Impl::look(const cv::Mat& image, Stamp stamp, const FarPlan&
 
   const FarArea area = area_of(aim, plan);
   begin(image, aim.eMc, area);
-  const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}}, area);
+  const std::vector<JudgedStone> stones = find_stones({scan_part(area, {}), {}, true}, area);
 
   report(stones, seen);
   const StonePicture whole = levels[0].picture(response, setup.shape);
@@ -200,6 +212,8 @@ std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, con
       stones.push_back(s);
     }
     if (stones.empty()) continue;
+    if (search.behind) crowd.look_behind(picture, stones);
+    make_room(picture, nearer, stones);
     screening.refine(picture, stones, nearer);
 
     std::vector<NearerStone> standing = nearer;

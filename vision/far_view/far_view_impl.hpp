@@ -1,6 +1,7 @@
 // What single looks and sequences share. For the source files of FarView and FarSequence only.
 #pragma once
 
+#include "vision/crowd_screening.hpp"
 #include "vision/far_view/far_levels.hpp"
 #include "vision/far_view/far_scan.hpp"
 #include "vision/far_view/far_sheet.hpp"
@@ -36,6 +37,7 @@ void report_aim(const FarAim& aim, FarPercept& seen);
 struct FarSearch {
   std::vector<FarPlace> places;     ///< by votes, in pixels of the middle level
   std::vector<JudgedStone> stones;  ///< where they must be, but for a fit
+  bool behind = false;              ///< handles that show behind these are looked for, too
 };
 
 /// The farthest row in which a stone of the area can be seen, with its grip.
@@ -68,6 +70,7 @@ struct FarView::Impl {
   StoneVoter voter;
   std::vector<StoneCandidate> candidates;
   StoneScreening screening;
+  CrowdScreening crowd;
 };
 
 /// Farther away a grip is a few pixels high, and seen nearly from the side.

@@ -142,6 +142,9 @@ TEST(FarView, WhatIsSeenAboutAStoneIsNoneOfIt) {
                           Beside{"red trousers behind a red handle, 25.7 m", 8114, 1.241, 25.671, true},
                           Beside{"black paint before the foot", 8011, 1.435, 23.959, true},
                           Beside{"grey paint under half a foot", 8093, 1.144, 15.556, true},
+                          Beside{"a red handle behind a red one", 7220, -1.923, 12.448, true},
+                          Beside{"one that another hides to its handle", 8008, -0.851, 20.465, true},
+                          Beside{"another touches it from behind", 7226, -2.274, 20.034, true},
                           Beside{"dark paint below white ice", 8177, -1.028, 20.214, false}}) {
     const FarPercept seen = look_far(random_far_scene(b.seed, testing::crowded()));
     ASSERT_TRUE(seen.ok) << b.what << ": " << seen.reason;
