@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
-#include <sstream>
 #include <thread>
 
 #include "hw/link/dds_team_link.hpp"
@@ -16,6 +13,7 @@
 #include "src/live/input_lines.hpp"
 #include "src/live/live_skip.hpp"
 #include "src/live/loop_calls.hpp"
+#include "src/live/order_words.hpp"
 #include "src/live/process.hpp"
 #include "src/live_game.hpp"
 #include "src/skip/skip_vision.hpp"
@@ -48,26 +46,16 @@ class Operator {
     if (line == "stop") return "no game is played";
     if (playing) return "a game is played: stop ends it";
     if (line == "begin") return skip_.begin(now);
-    if (line.starts_with("order")) return order(line, now);
+    if (line == "order" || line.starts_with("order ")) return order(line, now);
     return "'" + line + "': there are begin, order, play, stop, quit";
   }
   bool wants_to_quit() const { return quit_; }
 
  private:
-  // "order 2.1 0.5 -1.5"
   std::string order(const std::string& line, Stamp now) {
-    std::istringstream words(line);
-    std::string verb;
-    servo::ShotOrder shot;
-    double heading_deg = 0.0;
-    double spin_radps = 0.0;
-    if (!(words >> verb >> shot.speed_mps >> heading_deg >> spin_radps)) {
-      return "order SPEED_MPS HEADING_DEG SPIN_RADPS";
-    }
-    shot.heading_rad = heading_deg * std::numbers::pi / 180.0;
-    shot.curl = spin_radps < 0.0 ? servo::Curl::clockwise : servo::Curl::counter_clockwise;
-    shot.spin_radps = std::abs(spin_radps);
-    return skip_.order(shot, ++shots_, Team::unknown, now);
+    const auto shot = read_order(line);
+    if (!shot) return "'" + line + "': " + order_form();
+    return skip_.order(*shot, ++shots_, Team::unknown, now);
   }
 
   LiveSkip& skip_;

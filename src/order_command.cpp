@@ -54,6 +54,10 @@ class Commander {
     return true;
   }
   bool thrown() const { return released_; }
+  /// However it ends, it is told once.
+  void end_by_operator() {
+    if (!finished_) finish("ended by its operator");
+  }
 
  private:
   void order(Stamp now) {
@@ -137,6 +141,7 @@ int run_order(const OrderOptions& options) {
   tell(rig.link->robot, "waiting", "for the thrower to be heard, and armed");
   Commander commander(rig, options);
   while (commander.step() && !asked_to_end()) std::this_thread::sleep_for(5ms);
+  commander.end_by_operator();
   return commander.thrown() ? ExitStatus::success : ExitStatus::not_achieved;
 }
 

@@ -8,6 +8,7 @@
 #include "src/live/input_lines.hpp"
 #include "src/live/live_rink.hpp"
 #include "src/live/process.hpp"
+#include "src/live/truth_log.hpp"
 #include "src/skip/skip_set.hpp"
 
 namespace hogline {
@@ -15,6 +16,8 @@ namespace {
 
 constexpr Duration period = std::chrono::milliseconds(1);
 constexpr int rink_priority = 20;
+constexpr Duration worth_telling = std::chrono::milliseconds(40);  // half of what the rigs allow a silent device
+constexpr Duration telling_pause = std::chrono::seconds(1);
 
 Stamp present() { return std::chrono::steady_clock::now(); }
 
@@ -29,11 +32,34 @@ void obey(const std::string& line, LiveRink& rink, bool& quit) {
   }
 }
 
-void run_until_asked(LiveRink& rink) {
+/// Robots see a late rink as silent devices: whoever asks why they stopped finds it here.
+class Lateness {
+ public:
+  void passed(Stamp now) {
+    const Duration stood = last_ ? now - *last_ : Duration{};
+    last_ = now;
+    if (stood < worth_telling || (told_ && now - *told_ < telling_pause)) return;
+    told_ = now;
+    tell("rink", "late",
+         fmt::format("the machine kept the rink waiting for {:.0f} ms: robots see timeouts; give it less to do",
+                     1e3 * seconds(stood)));
+  }
+
+ private:
+  std::optional<Stamp> last_;
+  std::optional<Stamp> told_;
+};
+
+void run_until_asked(LiveRink& rink, const TruthLog& log) {
   InputLines input;
+  Lateness lateness;
   bool quit = false;
+  bool told_lost = false;
   for (Stamp looked{}; !quit && !asked_to_end();) {
     rink.pass(present());
+    lateness.passed(present());
+    if (log.lost() && !told_lost) tell("rink", "truth lost", "--truth: lines could not be written");
+    told_lost = log.lost();
     pump_told();
     if (present() - looked > std::chrono::milliseconds(20)) {
       looked = present();
@@ -64,9 +90,10 @@ int run_rink(const RinkOptions& options) {
   const bool first = run_first(rink_priority);
   LiveRink rink(rig, skip_rig(options), drawn(options), log, present());
   tell("rink", "ready", fmt::format("seed {}, {}", options.seed, first ? "runs first" : "runs as other programs do"));
-  run_until_asked(rink);
-  tell("rink", "end", "");
-  return ExitStatus::success;
+  run_until_asked(rink, log);
+  const bool written = log.flush();
+  tell("rink", "end", written ? "" : "--truth: lines could not be written; what is in the file is not all");
+  return written ? ExitStatus::success : ExitStatus::failed;
 }
 
 }  // namespace hogline

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "hw/link/dds_team_link.hpp"
@@ -96,16 +98,18 @@ int run_hold(const HoldOptions& options) {
   const hw::SteadyClock clock;
   const Stamp start = clock.now();
   bool heard = false;
-  bool told = false;
+  std::optional<std::string> told;
   for (Stamp due = start; !asked_to_end(); due += say_period) {
     const Duration since = due - start;
     if (options.seconds > 0.0 && since > free_first + from_seconds(options.seconds)) break;
     heard = hand.say(since > free_first);
-    if (!heard && !told) tell("operator", "nobody listens", rig.operator_socket);
-    told = !heard;
+    const std::string state = !heard ? "nobody listens" : since > free_first ? "pressed" : "heard";
+    if (told != state) tell("operator", state, rig.operator_socket);
+    told = state;
     std::this_thread::sleep_until(due + say_period);
   }
   heard = hand.say(false);
+  tell("operator", heard ? "let go" : "nobody listens", rig.operator_socket);
   return heard ? ExitStatus::success : ExitStatus::not_achieved;
 }
 

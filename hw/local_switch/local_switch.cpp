@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace hogline::hw {
 namespace {
@@ -34,24 +35,43 @@ int open_socket(const std::string& path) {
   return socket;
 }
 
-// What a program that was killed left behind; never anything but a socket.
-void remove_old(const std::string& path) {
+// What a program that was killed left behind; never anything but a socket, nor one at which a living program listens.
+void remove_old(const std::string& path, const sockaddr_un& address) {
   struct stat status {};
-  if (lstat(path.c_str(), &status) == 0 && S_ISSOCK(status.st_mode)) unlink(path.c_str());
+  if (lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return;
+  const int probe = open_socket(path);
+  const bool lives = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(probe);
+  if (lives) {
+    throw std::system_error(EADDRINUSE, std::generic_category(),
+                            "operator's socket " + path + ": another program listens there; end it first");
+  }
+  unlink(path.c_str());
 }
+
+/// Closed when the rest fails.
+struct OpenSocket {
+  explicit OpenSocket(const std::string& path) : descriptor(open_socket(path)) {}
+  ~OpenSocket() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  OpenSocket(const OpenSocket&) = delete;
+  OpenSocket& operator=(const OpenSocket&) = delete;
+  int descriptor;
+};
 
 }  // namespace
 
-LocalSwitch::LocalSwitch(const std::string& path) : path_(path), socket_(open_socket(path)) {
+LocalSwitch::LocalSwitch(const std::string& path) : path_(path) {
+  OpenSocket opened(path);
   const sockaddr_un address = address_of(path);
-  remove_old(path);
+  remove_old(path, address);
   const mode_t before = umask(0177);
-  const int bound = bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  const int bound = bind(opened.descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
   const int error = errno;
   umask(before);
-  if (bound == 0) return;
-  close(socket_);
-  throw std::system_error(error, std::generic_category(), "operator's socket " + path);
+  if (bound != 0) throw std::system_error(error, std::generic_category(), "operator's socket " + path);
+  socket_ = std::exchange(opened.descriptor, -1);
 }
 
 LocalSwitch::~LocalSwitch() {

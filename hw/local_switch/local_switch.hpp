@@ -11,7 +11,8 @@ namespace hogline::hw {
 /// A datagram is the word "held" or "free"; anything else is passed over.
 class LocalSwitch final : public OperatorSwitch {
  public:
-  /// Makes the socket at `path`, for this user alone; a socket that was there is replaced. Throws std::system_error.
+  /// Makes the socket at `path`, for this user alone; one that a program left behind is replaced. Throws
+  /// std::system_error, also where another program listens.
   explicit LocalSwitch(const std::string& path);
   ~LocalSwitch() override;
   LocalSwitch(const LocalSwitch&) = delete;

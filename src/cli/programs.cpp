@@ -4,6 +4,7 @@
 
 #include "src/cli/commands.hpp"
 #include "src/cli/number_checks.hpp"
+#include "src/live/order_words.hpp"
 #include "src/order_command.hpp"
 #include "src/rink_command.hpp"
 #include "src/thrower_command.hpp"
@@ -72,15 +73,15 @@ void add_order(CLI::App& app, Chosen& chosen) {
   order->add_option("--rig", options.rig, "rig file (YAML) with a link section: the robot to order as")->required();
   order->add_option("--speed", options.speed_mps, "of the stone at release, m/s")
       ->capture_default_str()
-      ->check(CLI::Validator(between(0.5, 5.0), "0.5 to 5.0"));
+      ->check(CLI::Validator(between(OrderLimits::least_speed_mps, OrderLimits::most_speed_mps), "0.5 to 5.0"));
   order->add_option("--heading-deg", options.heading_deg, "of the shot's line, counter-clockwise from down-ice")
       ->capture_default_str()
-      ->check(CLI::Validator(between(-8.0, 8.0), "-8.0 to 8.0"));
+      ->check(CLI::Validator(between(-OrderLimits::most_heading_deg, OrderLimits::most_heading_deg), "-8.0 to 8.0"));
   order
       ->add_option("--spin", options.spin_radps,
                    "the stone's rate of turn at release, rad/s, counter-clockwise positive")
       ->capture_default_str()
-      ->check(CLI::Validator(between(-6.0, 6.0), "-6.0 to 6.0"));
+      ->check(CLI::Validator(between(-OrderLimits::most_spin_radps, OrderLimits::most_spin_radps), "-6.0 to 6.0"));
   order->add_option("--wait", options.wait_s, "how long the thrower may take to be armed, s")
       ->capture_default_str()
       ->check(CLI::Validator(between(0.1, 86400.0), "0.1 to 86400.0"));

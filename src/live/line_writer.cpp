@@ -13,25 +13,30 @@ namespace {
 
 constexpr auto pause = std::chrono::milliseconds(10);
 
-// A full disk is no reason to stop: what can not be written is lost.
-void write_all(int file, std::string_view bytes) {
+// A full disk is no reason to stop: what can not be written is lost, and known to be.
+bool write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const auto written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;
+    if (written <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
+  return true;
 }
 
 }  // namespace
 
 LineWriter::LineWriter(int file) : file_(file), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-LineWriter::~LineWriter() {
+LineWriter::~LineWriter() { flush(); }
+
+bool LineWriter::flush() {
   thread_.request_stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   waiting_ += held_;
+  held_.clear();
   write_out();
+  return !lost_;
 }
 
 void LineWriter::post(const std::string& line) {
@@ -54,7 +59,7 @@ void LineWriter::write_out() {
     const std::lock_guard lock(mutex_);
     lines.swap(waiting_);
   }
-  write_all(file_, lines);
+  if (!write_all(file_, lines)) lost_ = true;
 }
 
 void LineWriter::run(const std::stop_token& stop) {

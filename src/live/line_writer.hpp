@@ -2,6 +2,7 @@
 // 2026-11-22: a write of a hundred bytes waited for seconds while others kept the disk busy).
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -21,6 +22,10 @@ class LineWriter {
   /// by one thread.
   void post(const std::string& line);
   void pump();
+  /// Some of what was posted could not be written, and never will be. Any thread.
+  bool lost() const { return lost_; }
+  /// Whether all that was posted is written; waits for it. Called when nothing more is posted.
+  bool flush();
 
  private:
   void run(const std::stop_token& stop);
@@ -30,6 +35,7 @@ class LineWriter {
   std::string held_;  ///< of the caller
   std::mutex mutex_;
   std::string waiting_;  ///< under the mutex
+  std::atomic<bool> lost_ = false;
   std::jthread thread_;
 };
 

@@ -1,5 +1,10 @@
 #include "src/live/live_rink.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
 #include <variant>
 
 #include "src/config/config_error.hpp"
@@ -18,14 +23,51 @@ int modbus_port_of(const config::ThrowerRig& rig) {
   const auto* tcp = std::get_if<hw::ModbusTcp>(&rig.modbus.line.line);
   if (tcp != nullptr && tcp->address == "127.0.0.1") return tcp->port;
   throw ConfigError(rig.rig.file, 0, "modbus.tcp.address", tcp != nullptr ? tcp->address : std::string("rtu"),
-                    "must be 127.0.0.1: the simulated rink serves this machine alone");
+                    "must be 127.0.0.1: the simulated rink serves this machine alone, as in config/rigs/thrower.yaml");
+}
+
+void serve_modbus(hw::sim::ModbusDevices& devices, const config::ThrowerRig& rig) {
+  const int port = modbus_port_of(rig);
+  try {
+    devices.serve_tcp(port);
+  } catch (const std::system_error& problem) {
+    throw std::runtime_error(
+        fmt::format("{}: modbus.tcp.port = {}: {}; end the program that has it (ss -ltnp), or give the "
+                    "rig another port",
+                    rig.rig.file, port, problem.what()));
+  }
 }
 
 std::string segment_of(const config::Rig& rig, const std::string& camera) {
   const auto source = rig.source(camera);
   if (const auto* shared = std::get_if<config::SharedMemorySource>(&source.device)) return shared->segment;
   throw ConfigError(rig.file, 0, "cameras." + camera + ".source", "",
-                    "must be shared_memory: that is where the simulated rink puts its pictures");
+                    "must be shared_memory: that is where the simulated rink puts its pictures, as in "
+                    "config/rigs/thrower.yaml");
+}
+
+std::string gyro_device_of(const config::ThrowerRig& rig) {
+  const std::filesystem::path device = rig.gyro_port.device;
+  std::error_code problem;
+  if (std::filesystem::is_directory(device.parent_path(), problem)) return device;
+  throw ConfigError(rig.rig.file, 0, "gyro.device", device,
+                    "must be in a folder that is there: the simulated rink puts its gyro's line at this path, as in "
+                    "config/rigs/thrower.yaml");
+}
+
+// Everything of this machine that the rigs name and the rink makes anew. The port and the buses have owners of their
+// own.
+std::vector<SoleOwner> take_all(const config::ThrowerRig& rig, const std::optional<config::SkipRig>& skip) {
+  std::vector<SoleOwner> owned;
+  modbus_port_of(rig);
+  const auto segment = [&owned](const config::Rig& of, const char* camera) {
+    owned.emplace_back("cameras." + std::string(camera) + ".source = shared memory " + segment_of(of, camera));
+  };
+  for (const char* camera : {"near", "low"}) segment(rig.rig, camera);
+  owned.emplace_back("gyro.device = " + gyro_device_of(rig));
+  if (!skip) return owned;
+  for (const char* camera : {"near", "far"}) segment(skip->rig, camera);
+  return owned;
 }
 
 }  // namespace
@@ -38,12 +80,13 @@ LiveRink::View::View(hw::sim::RenderedCamera& rendered, const std::string& segme
 
 LiveRink::LiveRink(const config::ThrowerRig& rig, const std::optional<config::SkipRig>& skip,
                    const hw::sim::Scenario& scenario, TruthLog& log, Stamp now)
-    : robot_(rig, scenario, 1),
+    : owned_(take_all(rig, skip)),
+      robot_(rig, scenario, 1),
       ahead_(now - robot_.rink().now()),
       gyro_line_(rig.gyro_port.device),
       log_(log),
       world_(robot_.rink().now()) {
-  robot_.rink().modbus().serve_tcp(modbus_port_of(rig));
+  serve_modbus(robot_.rink().modbus(), rig);
   add_view(rig.rig, "near", robot_.near_camera());
   add_view(rig.rig, "low", robot_.low_camera());
   buses_.emplace_back(rig.rig, robot_.rink().can(), now);

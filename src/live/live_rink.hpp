@@ -14,6 +14,7 @@
 #include "hw/shared_frames/frame_writer.hpp"
 #include "hw/sim/team_rink.hpp"
 #include "src/live/pty_line.hpp"
+#include "src/live/sole_owner.hpp"
 #include "src/live/truth_log.hpp"
 #include "src/skip/simulated_skip.hpp"
 #include "src/steel/robot_bus.hpp"
@@ -66,7 +67,8 @@ class LiveRink {
   };
   void exchange();
 
-  SimulatedRobot robot_;  ///< its devices; the adapters beside them are never stepped
+  std::vector<SoleOwner> owned_;  ///< first: what another rink serves is not touched
+  SimulatedRobot robot_;          ///< its devices; the adapters beside them are never stepped
   std::optional<SimulatedSkip> skip_;
   std::optional<hw::sim::TeamRink> sheet_;  ///< both robots' ends of it
   bool stone_runs_ = false;

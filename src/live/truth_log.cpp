@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "src/config/config_error.hpp"
+
 namespace hogline {
 namespace {
 
@@ -31,7 +33,10 @@ bool robot_moves(const hw::sim::Truth& truth) {
 TruthLog::File::File(const std::string& path) {
   if (path.empty()) return;
   descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw std::runtime_error(path + ": " + std::generic_category().message(errno));
+  if (descriptor < 0) {
+    throw config::ConfigError("command line", 0, "--truth", path,
+                              "can not be written: " + std::generic_category().message(errno));
+  }
 }
 
 TruthLog::File::~File() {

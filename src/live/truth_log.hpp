@@ -17,7 +17,7 @@ namespace hogline {
 /// doc/programs.md has the keys.
 class TruthLog {
  public:
-  /// Appends; an empty path writes nothing. Throws std::runtime_error.
+  /// Appends; an empty path writes nothing. Throws ConfigError that names --truth.
   explicit TruthLog(const std::string& path);
   TruthLog(const TruthLog&) = delete;
   TruthLog& operator=(const TruthLog&) = delete;
@@ -29,6 +29,11 @@ class TruthLog {
   /// Every stone has come to rest: where those on the sheet lie, the thrown one by its number among them (e of the
   /// skip).
   void at_rest(const std::vector<hw::sim::FieldStone>& stones, std::optional<std::size_t> thrown, Stamp now);
+
+  /// A line could not be written: a full disk, for instance.
+  bool lost() const { return lines_.lost(); }
+  /// Whether every line is written, once no more will come.
+  bool flush() { return lines_.flush(); }
 
  private:
   struct File {

@@ -431,6 +431,80 @@ class Stones(unittest.TestCase):
         self.assertEqual({s["team"] for s in line["stones"]}, {"scarlet", "yellow"})
 
 
+class Rink(unittest.TestCase):
+    """The simulated rink as a program: what it serves is its own, and what it could not do it tells."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        number = os.getpid()
+        with open(os.path.join(SOURCE, "config/rigs/thrower.yaml"), encoding="utf-8") as f:
+            self.text = f.read()
+        for old, new in (("group: 239.74.163.2", f"group: 239.76.{1 + number % 250}.1"),
+                         ("/tmp/hogline-thrower-gyro", os.path.join(self.folder.name, "gyro")),
+                         ("/tmp/hogline-thrower-operator", os.path.join(self.folder.name, "operator")),
+                         ("hogline-thrower-near", f"hogline-cli-{number}-near"),
+                         ("hogline-thrower-low", f"hogline-cli-{number}-low")):
+            self.assertIn(old, self.text)
+            self.text = self.text.replace(old, new)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def rig(self, port):
+        path = os.path.join(self.folder.name, f"rig-{port}.yaml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(self.text.replace("port: 15502", f"port: {port}"))
+        return path
+
+    @staticmethod
+    def free_port():
+        with socket.socket() as s:
+            s.bind(("127.0.0.1", 0))
+            return s.getsockname()[1]
+
+    def test_what_a_running_rink_serves_is_its_own(self):
+        first = subprocess.Popen([HOGLINE, "rink", "--rig", self.rig(self.free_port())], stdin=subprocess.PIPE,
+                                 stdout=subprocess.PIPE, text=True)
+        try:
+            self.assertIn("ready", first.stdout.readline())
+            gyro = os.readlink(os.path.join(self.folder.name, "gyro"))
+            second = run("rink", "--rig", self.rig(self.free_port()))
+            self.assertEqual(second.returncode, 3, second.stdout)
+            self.assertIn("is another running program's", second.stderr)
+            self.assertEqual(os.readlink(os.path.join(self.folder.name, "gyro")), gyro)
+        finally:
+            first.kill()
+            first.communicate()
+        third = subprocess.run([HOGLINE, "rink", "--rig", self.rig(self.free_port())], input="quit\n",
+                               capture_output=True, text=True, timeout=60)
+        self.assertEqual(third.returncode, 0, "what a killed one left behind is no obstacle: " + third.stderr)
+
+    def test_a_port_that_is_taken_is_named(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = taken.getsockname()[1]
+            result = run("rink", "--rig", self.rig(port))
+        self.assertEqual(result.returncode, 3)
+        for word in (f"modbus.tcp.port = {port}", "in use", "another port"):
+            self.assertIn(word, result.stderr)
+
+    def test_a_rig_of_steel_is_no_rig_for_it(self):
+        result = run("rink", "--rig", RIG)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("config/rigs/thrower.yaml", result.stderr)
+
+    def test_truth_that_is_lost_is_told(self):
+        result = subprocess.run([HOGLINE, "rink", "--rig", self.rig(self.free_port()), "--truth", "/dev/full"],
+                                input="quit\n", capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 3, result.stdout)
+        self.assertIn("could not be written", result.stdout)
+        for path in ("/nonexistent/truth.jsonl", self.folder.name):
+            result = run("rink", "--rig", self.rig(self.free_port()), "--truth", path)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--truth", result.stderr)
+
+
 class Far(unittest.TestCase):
     NAME = os.path.join(SOURCE, "tests/data/far/far-14-001")
 
