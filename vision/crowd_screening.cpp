@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/detect/granite.hpp"
+#include "vision/stone_looks.hpp"
 
 namespace hogline::vision {
 namespace {
 
-constexpr double least_granite = 0.20;  // of the body's front; a nearer stone's granite counts, too
 constexpr double same_place_m = 0.2;
-constexpr double hiding_m = 1.2;                    // a stone farther behind another is seen over it
 constexpr double least_handle = 0.35;               // share of the plate that has a handle's colour
 constexpr int most_rounds = 3;                      // a stone behind one behind one
 constexpr std::array starts{0.0, -1.0, 1.0, -2.0};  // steps along the line of sight from the votes' place
@@ -52,62 +50,11 @@ bool is_better(const JudgedStone& a, const JudgedStone& b) {
   return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
 }
 
-// A stone stands there already.
-bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
-  return std::any_of(stones.begin(), stones.end(), [&place](const JudgedStone& s) {
-    return s.doubt.empty() && (s.fit.place - place).norm() < same_place_m;
-  });
-}
-
-JudgedStone refused(const StoneCandidate& candidate, const char* why) {
-  JudgedStone stone{candidate, FittedStone(), why};
-  stone.fit.place = candidate.place;
-  return stone;
-}
-
-std::vector<KnownStone> known_of(const std::vector<JudgedStone>& stones) {
-  std::vector<KnownStone> known;
-  for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
-  }
-  return known;
-}
-
-std::vector<NearerStone> believed(const std::vector<JudgedStone>& stones) {
-  std::vector<NearerStone> known;
-  for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
-  }
-  return known;
-}
-
 }  // namespace
-
-bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye) {
-  return std::any_of(others.begin(), others.end(), [&](const NearerStone& other) {
-    const double apart_m = (other.place - place).norm();
-    return (other.place - eye).norm() < (place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
-  });
-}
 
 std::vector<JudgedStone> CrowdScreening::look(const StonePicture& picture,
                                               const std::vector<StoneCandidate>& candidates) {
-  std::vector<JudgedStone> stones;
-  for (const StoneCandidate& c : candidates) {
-    if (is_taken(c.place, stones)) continue;
-    if (granite_share(picture, c.place) < least_granite) {
-      stones.push_back(refused(c, "no granite below the handle"));
-      continue;
-    }
-    fitter_.begin(picture, {{c.place}}, quick_look());
-    if (is_hopeless(fitter_.first_granite())) {
-      stones.push_back(refused(c, "its colours are no stone's"));
-      continue;
-    }
-    const FittedStone& fit = fitter_.run().stones[0];
-    stones.push_back({c, fit, doubt_of(c, fit, false)});
-  }
-  return stones;
+  return look_at_each(picture, candidates, quick_look(), fitter_);
 }
 
 void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedStone>& stones) {
@@ -134,7 +81,7 @@ void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedS
 std::vector<StoneCandidate> CrowdScreening::worth_another_look(const StonePicture& picture,
                                                                const std::vector<JudgedStone>& stones,
                                                                const Light& granite) const {
-  const std::vector<NearerStone> known = believed(stones);
+  const std::vector<KnownStone> known = believed(stones);
   const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<StoneCandidate> worth_it;
   for (const JudgedStone& s : stones) {
@@ -151,21 +98,17 @@ void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedS
   if (!granite) return;
   const std::vector<StoneCandidate> doubted = worth_another_look(picture, stones, *granite);
   const Eigen::Vector2d eye = picture.eye().head<2>();
-  std::vector<KnownStone> newest = known_of(stones);
-  std::vector<NearerStone> newcomers;
+  std::vector<KnownStone> newest = believed(stones);
   for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
     const std::size_t before = stones.size();
-    std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones), newest);
+    std::vector<StoneCandidate> candidates = handles_.find(picture, believed(stones), newest);
     for (const StoneCandidate& c : doubted) {
-      if (round == 0 || may_be_hidden(c.place, newcomers, eye)) candidates.push_back(c);
+      if (round == 0 || may_be_hidden(c.place, newest, eye)) candidates.push_back(c);
     }
     glimpse_all(picture, candidates, *granite, stones);
     newest.clear();
-    newcomers.clear();
     for (std::size_t i = before; i < stones.size(); ++i) {
-      if (!stones[i].doubt.empty()) continue;
-      newest.push_back({stones[i].fit.place, stones[i].fit.handle});
-      newcomers.push_back({stones[i].fit.place, stones[i].fit.handle});
+      if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
     }
   }
 }
@@ -178,7 +121,7 @@ void CrowdScreening::look_at(const StonePicture& picture, const std::vector<Ston
 // The best first: where several come out in one place, it keeps it.
 void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
                                  const Light& granite, std::vector<JudgedStone>& stones) {
-  const std::vector<NearerStone> known = believed(stones);
+  const std::vector<KnownStone> known = believed(stones);
   std::vector<JudgedStone> glimpsed;
   for (const StoneCandidate& c : candidates) {
     if (is_taken(c.place, stones) || !looks_like_a_handle(picture, c.place)) continue;
@@ -198,7 +141,7 @@ void CrowdScreening::place_again(const StonePicture& picture, std::vector<Judged
   if (!granite) return;
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty() || s.fit.told > well_told) continue;
-    std::vector<NearerStone> others;
+    std::vector<KnownStone> others;
     for (const JudgedStone& other : stones) {
       if (&other != &s && other.doubt.empty()) others.push_back({other.fit.place, other.fit.handle});
     }
@@ -209,7 +152,7 @@ void CrowdScreening::place_again(const StonePicture& picture, std::vector<Judged
 }
 
 JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCandidate& candidate,
-                                    const std::vector<NearerStone>& known, const Light& granite) {
+                                    const std::vector<KnownStone>& known, const Light& granite) {
   JudgedStone best = glimpse_from_starts(picture, candidate, known, granite, {});
   if (best.doubt.empty()) return best;
   const Foreground before(picture, candidate.place, granite, teams_);
@@ -219,7 +162,7 @@ JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCand
 }
 
 JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, const StoneCandidate& candidate,
-                                                const std::vector<NearerStone>& known, const Light& granite,
+                                                const std::vector<KnownStone>& known, const Light& granite,
                                                 const std::optional<Foreground>& before) {
   StoneFitOptions options = careful_look();
   options.nearer = known;

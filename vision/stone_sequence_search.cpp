@@ -160,7 +160,7 @@ void StoneSequence::Impl::settle(const StonePicture& picture, const std::vector<
   }
   if (!fresh.empty()) fit_together(picture, options, fresh);
   std::vector<Eigen::Vector2d> places;
-  for (const NearerStone& s : scene.believed()) places.push_back(s.place);
+  for (const KnownStone& s : scene.believed()) places.push_back(s.place);
   for (std::size_t i = first_new; i < scene.stones.size(); ++i) {
     JudgedStone& s = scene.stones[i];
     StoneSighting sighting = sighting_of(s, setup.teams);

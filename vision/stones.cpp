@@ -10,6 +10,7 @@
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
 #include "vision/picture/picture_shape.hpp"
+#include "vision/stone_looks.hpp"
 #include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
 
@@ -37,7 +38,7 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
 /// not rare, and somebody may stand behind one: both together are a person.
 std::string doubt_of_a_person(const StonePicture& picture, const JudgedStone& stone,
                               const std::vector<Eigen::Vector2d>& places) {
-  std::vector<NearerStone> nearer;
+  std::vector<KnownStone> nearer;
   for (const Eigen::Vector2d& p : places) nearer.push_back({p});
   const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
   return around.granite_below && around.handle_above ? "it goes on below the foot and above the grip" : std::string();
@@ -87,7 +88,6 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   Settling settle(const StonePicture& picture, const StoneArea& area, std::vector<JudgedStone>& stones);
-  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
   Lens lens;
@@ -172,7 +172,7 @@ std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
 Settling StoneFinder::Impl::settle(const StonePicture& picture, const StoneArea& area,
                                    std::vector<JudgedStone>& stones) {
   const std::vector<bool> believed = believed_of(stones);
-  refine(picture, stones);
+  fit_together(picture, {}, without_doubt(stones), fitter);
   compare_granite(stones);
   part_overlapping(picture, stones);
   const std::vector<Eigen::Vector2d> places = places_of(stones);
@@ -189,28 +189,6 @@ Settling StoneFinder::Impl::settle(const StonePicture& picture, const StoneArea&
   }
   settled.again = to_be_looked_at(stones, believed, for_good);
   return settled;
-}
-
-// All together: stones that hide each other, and the shape they share.
-void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedStone>& stones) {
-  const auto granite = clubs_granite(stones);
-  std::vector<StoneStart> starts;
-  for (const JudgedStone& s : stones) {
-    if (!s.doubt.empty()) continue;
-    starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt, s.before ? &*s.before : nullptr});
-  }
-  fitter.begin(picture, starts, {});
-  const StoneFitResult& result = fitter.run();
-  std::size_t next = 0;
-  std::vector<NearerStone> others;
-  for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
-  for (JudgedStone& s : stones) {
-    if (!s.doubt.empty()) continue;
-    s.fit = result.stones[next++];
-    const bool behind_another = may_be_hidden(s.fit.place, others, picture.eye().head<2>());
-    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
-                                    : doubt_of(s.candidate, s.fit, behind_another);
-  }
 }
 
 }  // namespace hogline::vision

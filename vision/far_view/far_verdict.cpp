@@ -11,7 +11,7 @@ constexpr double alike = 0.25;
 }  // namespace
 
 std::string doubt_of_surroundings(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer) {
+                                  const std::vector<KnownStone>& nearer) {
   if (stone.candidate.votes < least_votes) return "too few votes for the far view";
   const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
   if (around.granite_below) return "what should be granite goes on below the foot";

@@ -10,6 +10,6 @@ namespace hogline::vision {
 
 /// Why something is no stone by what is seen before its foot and over its grip; empty where there is no doubt.
 std::string doubt_of_surroundings(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer);
+                                  const std::vector<KnownStone>& nearer);
 
 }  // namespace hogline::vision
