@@ -11,9 +11,10 @@ namespace hogline::vision {
 namespace {
 
 constexpr double same_place_m = 0.2;
-constexpr double least_handle = 0.35;               // share of the plate that has a handle's colour
-constexpr int most_rounds = 3;                      // a stone behind one behind one
-constexpr std::array starts{0.0, -1.0, 1.0, -2.0};  // steps along the line of sight from the votes' place
+constexpr double least_handle = 0.35;  // share of the plate that has a handle's colour
+constexpr int most_rounds = 3;         // a stone behind one behind one
+constexpr double least_body = 0.15;    // share of a body's outline: else the votes may be a grip's
+constexpr double grip_m = 0.05;        // over the plate
 constexpr double rows_a_step = 2.0;
 constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
@@ -27,12 +28,23 @@ constexpr double most_foreground = 0.7;
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120}; }
 StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200}; }
 
-// A grip, a ring's edge or a neighbour pulls votes along the line of sight farther than a fit finds back.
-Eigen::Vector2d moved_away(const StonePicture& picture, const Eigen::Vector2d& place, double steps) {
-  const Bearing bearing = bearing_of(place, picture.eye());
-  const double row_m = bearing.range_m * bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m) /
-                       picture.camera.lens().intrinsics().fy_px;
-  return place + steps * std::clamp(rows_a_step * row_m, least_step_m, most_step_m) * bearing.away;
+/// Where a fit may begin.
+struct Start {
+  Eigen::Vector2d place;
+  bool always;  ///< else only where the fits before it were promising
+};
+
+// A grip, a ring's edge or a neighbour pulls votes along the line of sight farther than a fit finds back. Where a
+// body's outline is missing they may be a grip's altogether, which is seen over what stands farther away.
+std::vector<Start> starts_of(const StonePicture& picture, const StoneCandidate& candidate) {
+  const Bearing bearing = bearing_of(candidate.place, picture.eye());
+  const double per_height = bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m);
+  const double row_m = bearing.range_m * per_height / picture.camera.lens().intrinsics().fy_px;
+  const double step_m = std::clamp(rows_a_step * row_m, least_step_m, most_step_m);
+  std::vector<Start> all{{candidate.place, true}};
+  if (candidate.body_votes < least_body) all.push_back({candidate.place - grip_m * per_height * bearing.away, true});
+  for (const double steps : {-1.0, 1.0, -2.0}) all.push_back({candidate.place + steps * step_m * bearing.away, false});
+  return all;
 }
 
 bool hides_some(const Foreground& before) {
@@ -86,14 +98,24 @@ std::vector<StoneCandidate> CrowdScreening::worth_another_look(const StonePictur
   std::vector<StoneCandidate> worth_it;
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) continue;
-    const bool promising = s.fit.told >= least_promising || may_be_hidden(s.candidate.place, known, eye) ||
-                           hides_some(Foreground(picture, s.candidate.place, granite, teams_));
+    const Eigen::Vector2d& place = s.candidate.place;
+    const bool promising = s.fit.told >= least_promising || (!s.candidate.faint && may_be_hidden(place, known, eye)) ||
+                           may_be_half_hidden(picture, place, granite);
     if (promising) worth_it.push_back(s.candidate);
   }
   return worth_it;
 }
 
+// By somebody.
+bool CrowdScreening::may_be_half_hidden(const StonePicture& picture, const Eigen::Vector2d& place,
+                                        const Light& granite) const {
+  if (!looks_like_a_handle(picture, place)) return false;
+  return hides_some(Foreground(picture, place, granite, teams_, Foreground::By::run)) ||
+         hides_some(Foreground(picture, place, granite, teams_, Foreground::By::unlike));
+}
+
 void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  if (!clubs_granite(stones)) look_alone(picture, stones);
   const auto granite = clubs_granite(stones);
   if (!granite) return;
   const std::vector<StoneCandidate> doubted = worth_another_look(picture, stones, *granite);
@@ -109,6 +131,23 @@ void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedS
     newest.clear();
     for (std::size_t i = before; i < stones.size(); ++i) {
       if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+    }
+  }
+}
+
+// Of a sheet's only stone the granite can not be known before it is found.
+void CrowdScreening::look_alone(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  for (JudgedStone& s : stones) {
+    if (s.fit.told < least_promising || !looks_like_a_handle(picture, s.candidate.place)) continue;
+    if (is_taken(s.candidate.place, stones)) continue;
+    for (const Start& start : starts_of(picture, s.candidate)) {
+      fitter_.begin(picture, {{start.place}}, careful_look());
+      const FittedStone& fit = fitter_.run().stones[0];
+      JudgedStone moved{s.candidate, fit, doubt_of(s.candidate, fit, false)};
+      moved.moved_alone = true;
+      if (!moved.doubt.empty() || !has_its_grip(picture, moved, teams_)) continue;
+      s = moved;
+      break;
     }
   }
 }
@@ -155,10 +194,14 @@ JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCand
                                     const std::vector<KnownStone>& known, const Light& granite) {
   JudgedStone best = glimpse_from_starts(picture, candidate, known, granite, {});
   if (best.doubt.empty()) return best;
-  const Foreground before(picture, candidate.place, granite, teams_);
-  if (!hides_some(before)) return best;
-  const JudgedStone half = glimpse_from_starts(picture, candidate, known, granite, before);
-  return is_better(half, best) ? half : best;
+  for (const Foreground::By by : {Foreground::By::run, Foreground::By::unlike}) {
+    const Foreground before(picture, candidate.place, granite, teams_, by);
+    if (!hides_some(before)) continue;
+    const JudgedStone half = glimpse_from_starts(picture, candidate, known, granite, before);
+    if (is_better(half, best)) best = half;
+    if (best.doubt.empty()) break;
+  }
+  return best;
 }
 
 JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, const StoneCandidate& candidate,
@@ -166,16 +209,15 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
                                                 const std::optional<Foreground>& before) {
   StoneFitOptions options = careful_look();
   options.nearer = known;
-  const bool in_plain_sight = !before && !may_be_hidden(candidate.place, known, picture.eye().head<2>());
+  const InTheWay in_the_way = in_the_way_of(before, may_be_hidden(candidate.place, known, picture.eye().head<2>()));
   JudgedStone best;
-  for (const double steps : starts) {
-    const Eigen::Vector2d start = moved_away(picture, candidate.place, steps);
-    fitter_.begin(picture, {{start, granite, before ? &*before : nullptr}}, options);
+  for (const Start& start : starts_of(picture, candidate)) {
+    if (!start.always && best.fit.told < least_promising) continue;
+    fitter_.begin(picture, {{start.place, granite, before ? &*before : nullptr}}, options);
     const FittedStone& fit = fitter_.run().stones[0];
-    const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_plain_sight), true, before};
-    if (steps == starts.front() || is_better(seen, best)) best = seen;
+    const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_the_way), true, before};
+    if (!best.glimpsed || is_better(seen, best)) best = seen;
     if (best.doubt.empty() && best.fit.told > well_told) break;
-    if (best.fit.told < least_promising) break;
   }
   return best;
 }

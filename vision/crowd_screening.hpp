@@ -38,7 +38,9 @@ class CrowdScreening {
  private:
   std::vector<StoneCandidate> worth_another_look(const StonePicture& picture, const std::vector<JudgedStone>& stones,
                                                  const Light& granite) const;
+  bool may_be_half_hidden(const StonePicture& picture, const Eigen::Vector2d& place, const Light& granite) const;
   bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
+  void look_alone(const StonePicture& picture, std::vector<JudgedStone>& stones);
   void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
                    std::vector<JudgedStone>& stones);
   JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,

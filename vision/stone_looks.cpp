@@ -3,12 +3,15 @@
 #include <algorithm>
 
 #include "vision/detect/granite.hpp"
+#include "vision/handle_angle.hpp"
 
 namespace hogline::vision {
 namespace {
 
 constexpr double least_granite = 0.20;  // of the body's front; a nearer stone's granite counts, too
 constexpr double same_place_m = 0.2;
+constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
+constexpr double clear_grip = 0.85;  // paint for this very camera hardly ever has so much
 
 JudgedStone refused(const StoneCandidate& candidate, const char* why) {
   JudgedStone stone{candidate, FittedStone(), why};
@@ -46,6 +49,12 @@ std::vector<KnownStone> believed(const std::vector<JudgedStone>& stones) {
   return known;
 }
 
+double least_grip_of(const JudgedStone& stone) { return is_dubious(stone) ? clear_grip : least_grip; }
+
+bool has_its_grip(const StonePicture& picture, const JudgedStone& stone, const TeamHues& teams) {
+  return handle_angle(picture, sighting_of(stone, teams)).present >= least_grip_of(stone);
+}
+
 std::vector<JudgedStone*> without_doubt(std::vector<JudgedStone>& stones) {
   std::vector<JudgedStone*> good;
   for (JudgedStone& s : stones) {
@@ -59,6 +68,10 @@ std::vector<JudgedStone> look_at_each(const StonePicture& picture, const std::ve
   std::vector<JudgedStone> stones;
   for (const StoneCandidate& c : candidates) {
     if (is_taken(c.place, stones)) continue;
+    if (c.faint) {
+      stones.push_back(refused(c, "hardly anything of a stone's outlines"));
+      continue;
+    }
     if (granite_share(picture, c.place) < least_granite) {
       stones.push_back(refused(c, "no granite below the handle"));
       continue;
@@ -89,8 +102,9 @@ SharedLook fit_together(const StonePicture& picture, const StoneFitOptions& opti
     JudgedStone& s = *stones[i];
     s.fit = result.stones[i];
     const bool behind_another = may_be_hidden(s.fit.place, others, picture.eye().head<2>(), hiding_m);
-    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
-                                    : doubt_of(s.candidate, s.fit, behind_another);
+    s.doubt = s.glimpsed && granite
+                  ? doubt_of_glimpse(s.candidate, s.fit, *granite, in_the_way_of(s.before, behind_another))
+                  : doubt_of(s.candidate, s.fit, behind_another);
   }
   return result.look;
 }

@@ -5,6 +5,7 @@
 
 #include "vision/detect/known_stone.hpp"
 #include "vision/detect/stone_picture.hpp"
+#include "vision/detect/stone_team.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
 #include "vision/stone_verdict.hpp"
@@ -31,6 +32,12 @@ std::vector<JudgedStone> look_at_each(const StonePicture& picture, const std::ve
 /// Returns the shape.
 SharedLook fit_together(const StonePicture& picture, const StoneFitOptions& options,
                         const std::vector<JudgedStone*>& stones, StoneFitter& fitter, double hiding_m = stones_hide_m);
+
+/// How much of a grip must be in sight to believe the stone, of one in plain sight.
+double least_grip_of(const JudgedStone& stone);
+
+/// So much is, as far as that can be told, with nothing known of other stones.
+bool has_its_grip(const StonePicture& picture, const JudgedStone& stone, const TeamHues& teams);
 
 /// Pointers to those without doubt.
 std::vector<JudgedStone*> without_doubt(std::vector<JudgedStone>& stones);

@@ -114,7 +114,8 @@ void StoneSequence::Impl::fit_together(const StonePicture& picture, const StoneF
   for (const JudgedStone* s : stones) before.push_back(*s);
   const auto granite = clubs_granite(before);
   for (JudgedStone* s : stones) {
-    if (s->before && granite) s->before.emplace(picture, s->fit.place, *granite, setup.teams);  // who stood there moves
+    if (s->before && granite)
+      s->before.emplace(picture, s->fit.place, *granite, setup.teams, s->before->by());  // who stood there moves
   }
   const SharedLook look = vision::fit_together(picture, options, stones, fitter);
   // What is no stone, or somebody's legs before one, would tell something else of it.

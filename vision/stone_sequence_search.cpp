@@ -124,7 +124,7 @@ void StoneSequence::Impl::search(const StonePicture& picture, StoneGroups& place
   }
   if (cv::countNonZero(places.centres) == 0) return;
 
-  const auto& candidates = voter.find(picture, places, {.area = area.wider(look_around_m)});
+  const auto& candidates = voter.find(picture, places, {.area = area.wider(look_around_m), .also_faint = true});
   for (const JudgedStone& s : screening.look(picture, candidates)) {
     ++diagnosis.asked;
     if (!scene.taken(s.fit.place)) scene.add(s, std::nullopt);

@@ -21,8 +21,7 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
-constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
-constexpr double alike = 0.15;       // of the light's difference from ice
+constexpr double alike = 0.15;  // of the light's difference from ice
 constexpr int most_settlings = 2;
 constexpr double made_way_m = 0.30;
 
@@ -116,7 +115,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
   const std::vector<StoneCandidate>& candidates =
-      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m)});
+      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m), .also_faint = true});
 
   std::vector<JudgedStone> stones = impl_->screening.look(picture, candidates);
   compare_granite(stones);
@@ -161,7 +160,7 @@ std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
   const std::string person = doubt_of_a_person(picture, stone, places);
   if (!person.empty()) return person;
   const HandleAngle handle = handle_angle(picture, sighting, places);
-  if (handle.present < least_grip) return "no grip over the plate";
+  if (handle.present < least_grip_of(stone)) return "no grip over the plate";
   if (handle.ok) {
     sighting.handle_rad = handle.rad;
     sighting.handle_sigma_rad = handle.sigma_rad;
