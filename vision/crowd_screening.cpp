@@ -57,6 +57,9 @@ double worth(const JudgedStone& s) {
   return s.fit.told * s.fit.explained * (1.0 - drift_counts * std::min(1.0, drift_m));
 }
 
+// What does not look like a stone was left out of it, so that what is left tells more than it is worth.
+bool is_cut_out(const JudgedStone& s) { return in_the_way_of(s.before, false) == InTheWay::what_it_is_not; }
+
 bool is_better(const JudgedStone& a, const JudgedStone& b) {
   if (a.doubt.empty() != b.doubt.empty()) return a.doubt.empty();
   return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
@@ -166,8 +169,9 @@ void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<
     if (is_taken(c.place, stones) || !looks_like_a_handle(picture, c.place)) continue;
     glimpsed.push_back(glimpse(picture, c, known, granite));
   }
-  std::sort(glimpsed.begin(), glimpsed.end(),
-            [](const JudgedStone& a, const JudgedStone& b) { return worth(a) > worth(b); });
+  std::sort(glimpsed.begin(), glimpsed.end(), [](const JudgedStone& a, const JudgedStone& b) {
+    return is_cut_out(a) != is_cut_out(b) ? is_cut_out(b) : worth(a) > worth(b);
+  });
   for (JudgedStone& s : glimpsed) {
     if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = no_room;
     stones.push_back(s);
