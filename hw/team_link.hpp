@@ -28,6 +28,7 @@ struct TeamLinkState {
   long sent = 0;
   long received = 0;
   long malformed = 0;                ///< came in and was dropped: not finite, too long, unknown words
+  long impostors = 0;                ///< came in and was dropped: said under a name that is not its writer's
   std::optional<DeviceError> error;  ///< latched
 };
 

@@ -12,6 +12,7 @@
 #include "src/exit_status.hpp"
 #include "src/percept_json.hpp"
 #include "src/picture_reader.hpp"
+#include "src/standing_still.hpp"
 #include "src/stones_setup.hpp"
 #include "vision/board.hpp"
 #include "vision/near_view.hpp"
@@ -25,12 +26,14 @@ struct Looks {
   vision::StoneAverage average;
   cv::Mat last;
   SheetPosePercept sheet;  ///< of the last picture in which it was seen
+  std::string refused;     ///< why the pictures say nothing together
 };
 
 Looks look_at_all(const BoardOptions& options, const vision::StonesSetup& setup) {
   vision::NearView near_view(setup.camera);
   vision::StoneFinder finder(setup);
   Looks looks;
+  StandingStill still;
   const auto& k = setup.camera.intrinsics;
   const PictureReader next = read_pictures(options.images, {k.width_px, k.height_px}, std::nullopt);
   while (const auto picture = next()) {
@@ -43,6 +46,8 @@ Looks look_at_all(const BoardOptions& options, const vision::StonesSetup& setup)
       fmt::print(stderr, "{}: the sheet's pose: {}\n", picture->name, sheet.reason);
       continue;
     }
+    looks.refused = still.contradiction(picture->name, sheet);
+    if (!looks.refused.empty()) return looks;
     looks.average.add(finder.find(picture->bgr, {}, vision::from_row_major(sheet.eMc), sheet.sheet_width_m));
     looks.last = picture->bgr;
     looks.sheet = sheet;
@@ -100,6 +105,10 @@ int run_board(const BoardOptions& options) {
   std::optional<DrawingFolder> drawings;
   if (options.out) drawings.emplace("--out", *options.out);
   const Looks looks = look_at_all(options, setup);
+  if (!looks.refused.empty()) {
+    fmt::print(stderr, "these pictures are {}\n", looks.refused);
+    return ExitStatus::not_achieved;
+  }
   if (looks.average.frames() == 0) {
     fmt::print("nothing seen\n");
     return ExitStatus::not_achieved;

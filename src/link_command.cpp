@@ -105,8 +105,9 @@ int run_link(const LinkOptions& options) {
     fmt::print("{}\n", options.json ? json_of(robot, state).dump() : text_of(robot, state));
   }
   if (!options.json) {
-    fmt::print("  {} messages sent, {} received, {} malformed, {} heartbeats of strangers\n", listener.state().sent,
-               listener.state().received, listener.state().malformed, listener.strangers());
+    fmt::print("  {} messages sent, {} received, {} malformed, {} under another's name, {} heartbeats of strangers\n",
+               listener.state().sent, listener.state().received, listener.state().malformed, listener.state().impostors,
+               listener.strangers());
   }
   return all_there ? ExitStatus::success : ExitStatus::not_achieved;
 }

@@ -1,5 +1,6 @@
 // A game that the robots play on their own ice: strategists and rules in a thread of their own beside the skip's
-// control loop. A game that was stopped is gone on with where it stood.
+// control loop. A game that was stopped is gone on with where it stood; each sitting has a record of its own, in the
+// first of OUT, OUT/2, OUT/3, ... that has none.
 #pragma once
 
 #include <atomic>
@@ -27,7 +28,7 @@ class LiveGame {
 
   /// Begins it, or goes on with it. Why not; empty: it is played.
   std::string play();
-  /// As soon as nothing runs: whoever thinks is not waited for.
+  /// As soon as nothing moves that was ordered: neither whoever thinks nor whoever is to arm the thrower is waited for.
   void stop() { thread_.request_stop(); }
   bool playing() const { return playing_; }
   /// What has happened since the last call, in a word and in words. Never waits.
@@ -35,6 +36,8 @@ class LiveGame {
 
  private:
   class Listener;
+  class LostStrategists;
+  struct Kept;
   struct Word {
     std::string event;
     std::string what;
@@ -42,6 +45,7 @@ class LiveGame {
 
   void run(const std::stop_token& stop);
   void referee(const std::stop_token& stop);
+  std::string sit(game::Referee& referee, GameTable& table, LiveThrows& throws, const std::stop_token& stop);
   void tell(const std::string& event, const std::string& what);
 
   TableOptions table_;

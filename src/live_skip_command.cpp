@@ -47,7 +47,7 @@ class Operator {
     if (line == "stop" && playing) return game_->stop(), "";
     if (line == "stop") return "no game is played";
     if (playing) return "a game is played: stop ends it";
-    if (line == "begin") return skip_.begin(now), "";
+    if (line == "begin") return skip_.begin(now);
     if (line.starts_with("order")) return order(line, now);
     return "'" + line + "': there are begin, order, play, stop, quit";
   }
@@ -76,10 +76,20 @@ class Operator {
   bool quit_ = false;
 };
 
+/// However the loop ends: whoever asks it then is not kept waiting.
+struct ClosedAtTheEnd {
+  explicit ClosedAtTheEnd(LoopCalls& of) : calls(of) {}
+  ~ClosedAtTheEnd() { calls.close(); }
+  ClosedAtTheEnd(const ClosedAtTheEnd&) = delete;
+  ClosedAtTheEnd& operator=(const ClosedAtTheEnd&) = delete;
+  LoopCalls& calls;
+};
+
 void tell_skip(const char* event, const std::string& what) { tell("skip", event, what); }
 
 /// The loop itself: skip, its operator's words, and what the game's thread asks.
 void run_control(LiveSkip& skip, LiveGame* game, LoopCalls& calls, Duration period, ServiceManager& services) {
+  const ClosedAtTheEnd closed(calls);
   const hw::SteadyClock clock;
   InputLines input;
   Operator person(skip, game);
@@ -97,7 +107,6 @@ void run_control(LiveSkip& skip, LiveGame* game, LoopCalls& calls, Duration peri
     const std::string refusal = line ? person.obey(*line, now) : std::string();
     if (!refusal.empty()) tell("skip", "refused", refusal);
   }
-  calls.close();
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "src/far_looker.hpp"
 #include "src/percept_json.hpp"
 #include "src/picture_reader.hpp"
+#include "src/standing_still.hpp"
 #include "src/stones_setup.hpp"
 #include "vision/board.hpp"
 #include "vision/near_view.hpp"
@@ -34,6 +35,7 @@ struct Look {
   std::optional<FarPercept> far;  ///< of the far camera, in the place of `stones`
   vision::Pose eMc = vision::Pose::Identity();
   std::optional<double> sheet_width_m;
+  std::optional<SheetPosePercept> sheet;  ///< as the near camera sees it
 
   bool ok() const { return far ? far->ok : stones.ok; }
   const std::vector<StoneSighting>& seen() const { return far ? far->stones : stones.stones; }
@@ -57,6 +59,7 @@ Looker near_looker(const vision::StonesSetup& setup) {
     }
     look.eMc = vision::from_row_major(sheet.eMc);
     look.sheet_width_m = sheet.sheet_width_m;
+    look.sheet = sheet;
     look.stones = eyes->finder.find(picture.bgr, picture.stamp, look.eMc, look.sheet_width_m);
     return look;
   };
@@ -118,9 +121,27 @@ std::string line_of(const std::string& name, const Look& look, const TeamNames& 
 /// All pictures of one robot that stands still.
 struct Standing {
   vision::StoneAverage average;
+  StandingStill still;
   int pictures = 0;
-  std::string reason;  ///< of the last picture that showed nothing
+  std::string reason;   ///< of the last picture that showed nothing
+  std::string refused;  ///< why the pictures say nothing together
+
+  void add(const std::string& name, const Look& look) {
+    ++pictures;
+    if (refused.empty() && look.sheet) refused = still.contradiction(name, *look.sheet);
+    average.add(look.stones);
+    if (!look.stones.ok) reason = look.stones.reason;
+  }
 };
+
+int tell(const Standing& standing, const TeamNames& teams, double elapsed_ms) {
+  const bool refused = !standing.refused.empty();
+  const int frames = refused ? 0 : standing.average.frames();
+  fmt::print("{}\n", stones_sequence_line(standing.pictures, frames,
+                                          refused ? std::vector<StoneSighting>() : standing.average.stones(),
+                                          refused ? standing.refused : standing.reason, teams, elapsed_ms));
+  return frames > 0 ? ExitStatus::success : ExitStatus::not_achieved;
+}
 
 }  // namespace
 
@@ -147,16 +168,11 @@ int run_stones(const StonesOptions& options) {
       const vision::Board board = vision::judge(look.seen(), look.sheet_width_m);
       drawings->save(picture->name, drawing::draw_stones(picture->bgr, board, camera, eyes.shape));
     }
-    ++standing.pictures;
-    standing.average.add(look.stones);
-    if (!look.stones.ok) standing.reason = look.stones.reason;
+    if (options.sequence) standing.add(picture->name, look);
     all_estimated = all_estimated && look.ok();
   }
   if (!options.sequence) return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;
-  const int frames = standing.average.frames();
-  fmt::print("{}\n", stones_sequence_line(standing.pictures, frames, standing.average.stones(), standing.reason,
-                                          team_names(rig), ms_since(start)));
-  return frames > 0 ? ExitStatus::success : ExitStatus::not_achieved;
+  return tell(standing, team_names(rig), ms_since(start));
 }
 
 }  // namespace hogline

@@ -36,9 +36,11 @@ double lifted_error_m(const Pose& eMc, const CameraSetup& setup) {
 constexpr double most_bleed_px = 0.15;
 constexpr double sure_sigmas = 2.5;
 
-// What edges that all lie to one side do to the distance; within its own sigma it is noise.
+// What edges that all lie to one side do to the distance; as much of it as their own sigma explains is noise.
 double bleed_error_m(const SheetFitResult& result) {
-  return std::abs(result.bleed_px) > result.bleed_sigma_px ? 1.5 * std::abs(result.bleed_y_m) : 0.0;
+  const double bleed_px = std::abs(result.bleed_px);
+  if (bleed_px <= result.bleed_sigma_px) return 0.0;
+  return 1.5 * std::abs(result.bleed_y_m) * (1.0 - result.bleed_sigma_px / bleed_px);
 }
 
 }  // namespace

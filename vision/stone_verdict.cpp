@@ -54,6 +54,11 @@ double quality(const JudgedStone& s) { return s.candidate.votes * s.fit.explaine
 
 }  // namespace
 
+bool has_a_colour(const Light& handle) {
+  const double spread = handle.maxCoeff() - handle.minCoeff();
+  return spread >= colourless * std::max(1e-3, handle.maxCoeff()) && spread >= faint;
+}
+
 namespace {
 
 std::string doubt_of_granite(const Light& granite) {
@@ -65,16 +70,11 @@ std::string doubt_of_granite(const Light& granite) {
   return {};
 }
 
-bool is_coloured(const Light& handle) {
-  const double spread = handle.maxCoeff() - handle.minCoeff();
-  return spread >= colourless * std::max(1e-3, handle.maxCoeff()) && spread >= faint;
-}
-
 // A handle that shows over nearer stones, its granite behind them: the handle alone must convince.
 std::string doubt_of_handle_alone(const StoneCandidate& candidate, const FittedStone& fit) {
   if (brightness(fit.granite) > 1.35 * lightest_granite) return "ice, not granite, below what may be a grip";
   if (candidate.handle_votes < least_lone_handle_votes) return "neither granite nor a clear handle";
-  if (!is_coloured(fit.handle)) return "neither granite nor a handle's colour";
+  if (!has_a_colour(fit.handle)) return "neither granite nor a handle's colour";
   return {};
 }
 
@@ -99,7 +99,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   const std::string doubt = handle_alone ? doubt_of_handle_alone(candidate, fit) : doubt_of_granite(fit.granite);
   if (!doubt.empty()) return doubt;
   if (!handle_alone && fit.handle_contrast < least_handle_contrast) return "no handle stands out";
-  if (!is_coloured(fit.handle) && candidate.votes < most_votes) return "a handle without colour, and few votes";
+  if (!has_a_colour(fit.handle) && candidate.votes < most_votes) return "a handle without colour, and few votes";
   if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
   if (!behind_another && body_is_missing(candidate, fit)) return "a handle's outline without a body's";
   if (fit.telling > 0 && fit.told < least_told_alone) return "what is seen is not a stone's";
@@ -135,7 +135,7 @@ std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone&
   if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
   if (cut_out && fit.visible < least_visible_cut_out) return "too little of it can be seen";
   if (cut_out && fit.granite_told < least_granite_told * fit.telling) return "hardly any granite";
-  if (!is_coloured(fit.handle)) return "its handle has no colour";
+  if (!has_a_colour(fit.handle)) return "its handle has no colour";
   if (fit.handle_contrast < faint) return "no handle stands out";
   if ((fit.granite - granite).norm() > 0.6 * granite.norm()) {
     return "its granite is not the others'";

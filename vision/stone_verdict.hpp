@@ -48,6 +48,9 @@ std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones);
 /// The granite's colour at the place of the votes alone says that no fit will make a stone of it.
 bool is_hopeless(const Light& granite);
 
+/// A handle's light is no grey: it is clearly of some colour.
+bool has_a_colour(const Light& handle);
+
 /// Nearer than two stones can stand, even if they were a pixel farther apart along the line of sight: 7 cm far away.
 bool stand_in_one_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const StonePicture& picture);
 

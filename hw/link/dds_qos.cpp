@@ -14,6 +14,15 @@ Qos common_qos(const Topic& topic) {
   return qos;
 }
 
+Qos both_ends_qos(const Topic& topic) {
+  Qos qos = common_qos(topic);
+  if (topic.heartbeat) {
+    dds_qset_deadline(qos.get(), heartbeat_deadline.count());
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, liveliness_lease.count());
+  }
+  return qos;
+}
+
 void set_plugin(dds_qos_t* qos, const std::string& part, const std::string& library, const std::string& function) {
   const std::string key = "dds.sec." + part + ".library.";
   dds_qset_prop(qos, (key + "path").c_str(), (std::string(HOGLINE_DDS_PLUGIN_FOLDER) + "/" + library).c_str());
@@ -45,17 +54,29 @@ Qos participant_qos(const LinkConfig& config) {
   return qos;
 }
 
-Qos writer_qos(const Topic& topic) {
-  Qos qos = common_qos(topic);
-  if (topic.heartbeat) {
-    dds_qset_deadline(qos.get(), heartbeat_deadline.count());
-    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, liveliness_lease.count());
-  }
+// ROS 2's readers have the common partition, which has no name.
+Qos writer_qos(const Topic& topic, const std::string& robot) {
+  Qos qos = both_ends_qos(topic);
+  const char* names[] = {"", robot.c_str()};
+  if (!robot.empty()) dds_qset_partition(qos.get(), 2, names);
   return qos;
 }
 
+std::vector<std::string> names_of(const dds_qos_t* qos) {
+  std::uint32_t count = 0;
+  char** partitions = nullptr;
+  std::vector<std::string> names;
+  if (!dds_qget_partition(qos, &count, &partitions)) return names;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    names.emplace_back(partitions[i]);
+    dds_free(partitions[i]);
+  }
+  dds_free(partitions);
+  return names;
+}
+
 Qos reader_qos(const Topic& topic) {
-  Qos qos = writer_qos(topic);
+  Qos qos = both_ends_qos(topic);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hw/link/dds_qos.hpp"
 #include "hw/link/topics.hpp"
 #include "hw/link/wire_messages.hpp"
@@ -21,7 +23,7 @@ std::int32_t made(std::int32_t handle, const std::string& what) {
 }  // namespace
 
 DdsTeamLink::DdsTeamLink(const LinkConfig& config, Stamp now, TeamTime utc_now)
-    : robot_(config.robot), start_(now), utc_start_(utc_now) {
+    : robot_(config.robot), start_(now), utc_start_(utc_now), secure_(config.security.has_value()) {
   if (const std::string missing = missing_key_file(config); !missing.empty()) throw LinkError(missing);
   state_.session = static_cast<std::uint64_t>(utc_now.time_since_epoch() / std::chrono::microseconds{1});
   try {
@@ -49,7 +51,13 @@ void DdsTeamLink::open(const LinkConfig& config) {
     const std::string name(topic.name);
     const std::int32_t handle =
         made(dds_create_topic(participant_, topic.type, name.c_str(), nullptr, nullptr), "topic " + name);
-    const std::int32_t writer = dds_create_writer(participant_, handle, writer_qos(topic).get(), nullptr);
+    const std::int32_t writer = dds_create_writer(
+        participant_, handle, writer_qos(topic, config.security ? config.robot : std::string()).get(), nullptr);
+    if (writer == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY && topic.heartbeat) {
+      throw LinkError(fmt::format(
+          "the keys in {} do not let '{}' say that it is there: make new ones with 'hogline keys', for all robots",
+          config.security->folder, robot_));
+    }
     ends_[kind].writer = writer == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY ? forbidden : made(writer, "writing " + name);
     ends_[kind].reader =
         made(dds_create_reader(participant_, handle, reader_qos(topic).get(), nullptr), "reading " + name);
@@ -89,10 +97,27 @@ std::optional<TeamMessage> DdsTeamLink::take(std::size_t kind) {
     std::optional<TeamMessage> message = info.valid_data ? topics()[kind].decode(sample) : std::nullopt;
     dds_return_loan(ends_[kind].reader, &sample, 1);
     sample = nullptr;
-    if (message) return message;
-    if (info.valid_data) ++state_.malformed;
+    if (message && may_say(kind, info.publication_handle, *message)) return message;
+    if (info.valid_data) ++(message ? state_.impostors : state_.malformed);
   }
   return std::nullopt;
+}
+
+// DDS Security binds a writer's topic and partitions to its identity, not what it says. A writer that was gone before
+// its first message was read speaks for nobody; but whoever of the team calls a stop stops, under whatever name.
+bool DdsTeamLink::may_say(std::size_t kind, std::uint64_t writer, const TeamMessage& message) {
+  constexpr std::size_t most_writers = 1000;
+  const auto* stop = std::get_if<EmergencyStopMessage>(&message);
+  if (!secure_ || (stop != nullptr && stop->pressed)) return true;
+  auto known = names_.find(writer);
+  if (known == names_.end()) {
+    dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(ends_[kind].reader, writer);
+    if (endpoint == nullptr) return false;
+    if (names_.size() >= most_writers) names_.clear();
+    known = names_.emplace(writer, names_of(endpoint->qos)).first;
+    dds_builtintopic_free_endpoint(endpoint);
+  }
+  return std::ranges::find(known->second, origin_of(message).robot) != known->second.end();
 }
 
 std::optional<ReceivedMessage> DdsTeamLink::receive(Stamp now) {

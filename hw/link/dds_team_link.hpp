@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "hw/link/dds_domain.hpp"
 #include "hw/link/link_config.hpp"
@@ -49,6 +52,7 @@ class DdsTeamLink final : public TeamLink {
   void open(const LinkConfig& config);
   void latch(Stamp now, std::string what);
   std::optional<TeamMessage> take(std::size_t kind);
+  bool may_say(std::size_t kind, std::uint64_t writer, const TeamMessage& message);
 
   std::string robot_;
   Stamp start_;
@@ -57,6 +61,8 @@ class DdsTeamLink final : public TeamLink {
   std::shared_ptr<DdsDomain> domain_;
   std::int32_t participant_ = 0;
   std::array<Ends, std::variant_size_v<TeamMessage>> ends_{};
+  bool secure_;
+  std::map<std::uint64_t, std::vector<std::string>> names_;  ///< of each writer that was heard, when secure
 };
 
 }  // namespace hogline::hw::link

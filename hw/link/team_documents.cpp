@@ -81,7 +81,7 @@ std::string permissions_xml(const TeamMember& member, std::uint32_t domain, Team
       <validity><not_before>{1}</not_before><not_after>{2}</not_after></validity>
       <allow_rule>
         <domains><id>{3}</id></domains>
-        <publish><topics>{4}</topics></publish>
+        <publish><topics>{4}</topics><partitions><partition></partition><partition>{0}</partition></partitions></publish>
         <subscribe><topics><topic>rt/hogline/*</topic></topics></subscribe>
       </allow_rule>
       <default>DENY</default>

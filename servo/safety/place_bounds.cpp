@@ -23,6 +23,11 @@ HogBounds hull(const HogBounds& a, const HogBounds& b) {
   return {std::min(a.nearest_m, b.nearest_m), std::max(a.farthest_m, b.farthest_m)};
 }
 
+// Of two that overlap.
+HogBounds common(const HogBounds& a, const HogBounds& b) {
+  return {std::max(a.nearest_m, b.nearest_m), std::min(a.farthest_m, b.farthest_m)};
+}
+
 }  // namespace
 
 void PlaceBounds::wheels(Stamp stamp, double forward_mps) {
@@ -86,8 +91,7 @@ void PlaceBounds::look(const SheetPosePercept& view) {
   }
   if (!last || !overlap(*last, seen)) return;
   if (to_confirm_ > 0 && --to_confirm_ > 0) return;
-  const HogBounds both = hull(*last, seen);
-  if (both.half_width_m() <= bounds_->half_width_m()) bounds_ = both;
+  bounds_ = common(*bounds_, hull(*last, seen));
 }
 
 std::optional<HogBounds> PlaceBounds::now() const { return bounds_; }

@@ -4,17 +4,25 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 
 namespace hogline {
+namespace {
+
+constexpr std::size_t longest = 4096;
+
+}  // namespace
 
 std::optional<std::string> InputLines::line() {
   pollfd waiting{STDIN_FILENO, POLLIN, 0};
   if (open_ && poll(&waiting, 1, 0) == 1) {
     std::array<char, 256> bytes{};
     const auto got = read(STDIN_FILENO, bytes.data(), bytes.size());
-    open_ = got > 0;
-    if (open_) said_.append(bytes.data(), static_cast<std::size_t>(got));
+    const bool later = got < 0 && (errno == EINTR || errno == EAGAIN);
+    open_ = got > 0 || later;
+    if (got > 0) said_.append(bytes.data(), static_cast<std::size_t>(got));
   }
+  if (said_.size() > longest && said_.find('\n') == std::string::npos) said_.clear();  // nobody's words
   const auto end = said_.find('\n');
   if (end == std::string::npos) return std::nullopt;
   const std::string line = said_.substr(0, end);

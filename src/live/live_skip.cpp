@@ -39,10 +39,13 @@ const char* fate(servo::StoneFate fate) {
 }
 
 std::string words_of(const servo::SkipReport& report) {
+  std::string words = report.ok ? std::string() : report.reason;
   for (const servo::StoneOutcome& stone : report.result.stones) {
-    if (stone.thrown) return fmt::format("{} {:.3f}, {:.3f} m", fate(stone.fate), stone.x_m, stone.y_m);
+    if (!stone.thrown) continue;
+    if (!words.empty()) words += "; ";
+    return words + fmt::format("{} {:.3f}, {:.3f} m", fate(stone.fate), stone.x_m, stone.y_m);
   }
-  return report.reason.empty() ? "no stone came" : report.reason;
+  return words.empty() ? "no stone came" : words;
 }
 
 }  // namespace
@@ -51,8 +54,7 @@ LiveSkip::LiveSkip(const config::SkipRig& rig, SteelSkip& robot, hw::TeamLink& l
                    const MakeSeer& make_seer, Tell tell)
     : tell_(std::move(tell)),
       robot_(robot),
-      sees_(make_seer()),
-      eyes_(*sees_, robot.near_camera(), robot.far_camera(), clock),
+      eyes_(make_seer, robot.near_camera(), robot.far_camera(), clock),
       member_(
           rig, SkipDevices{robot.head(), eyes_.near_camera(), eyes_.far_camera()},
           [this] { return std::make_unique<DoneLooks>(eyes_.seer()); }, link),
@@ -68,12 +70,15 @@ void LiveSkip::step(Stamp now, Duration dt) {
   told_there_ = there;
 }
 
-void LiveSkip::begin(Stamp now) { begin(ice_, now); }
+std::string LiveSkip::begin(Stamp now) { return begin(ice_, now); }
 
-void LiveSkip::begin(const servo::IceEstimate& ice, Stamp now) {
+std::string LiveSkip::begin(const servo::IceEstimate& ice, Stamp now) {
+  if (member_.order_is_open() && member_.missing(now).empty()) return "a shot is under way: it is followed to its end";
   told_state_.reset();
   told_order_ = OrderPhase::none;
+  eyes_.forget();
   member_.begin(ice, now);
+  return {};
 }
 
 SkipView LiveSkip::view(Stamp now) const {
@@ -112,6 +117,9 @@ void LiveSkip::watch() {
     tell_("state", servo::to_string(*told_state_));
     if (*told_state_ == servo::SkipState::aim) {
       tell_("board", fmt::format("{} stones", member_.skip().diagnosis().standing.size()));
+    }
+    if (member_.over()) {
+      for (const std::string& remark : member_.skip().report().remarks) tell_("remark", remark);
     }
     if (member_.over()) tell_(member_.skip().report().ok ? "outcome" : "stopped", words_of(member_.skip().report()));
   }

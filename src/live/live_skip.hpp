@@ -40,8 +40,9 @@ class LiveSkip {
   void step(Stamp now, Duration dt);
   /// Clears latched errors, looks at the house and waits for a stone. Whatever was under way ends.
   /// `ice`: in s; without it what is known of any ice.
-  void begin(Stamp now);
-  void begin(const servo::IceEstimate& ice, Stamp now);
+  /// Why not, as long as a shot is under way with a thrower that is there: somebody must follow it. Empty: it looks.
+  std::string begin(Stamp now);
+  std::string begin(const servo::IceEstimate& ice, Stamp now);
   /// Why not, where it can not be ordered now; empty: it is on its way. `number`: of the end's shots, from 1.
   std::string order(const servo::ShotOrder& shot, std::uint32_t number, Team team, Stamp now);
   SkipView view(Stamp now) const;
@@ -51,7 +52,6 @@ class LiveSkip {
 
   Tell tell_;
   SteelSkip& robot_;
-  std::unique_ptr<SkipSeer> sees_;
   SkipEyesThread eyes_;
   SkipMember member_;
   servo::IceEstimate ice_;

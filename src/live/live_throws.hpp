@@ -25,17 +25,25 @@ class LiveThrows final : public game::StoneThrower {
 
   void start(const game::Turn& turn, Stamp now) override;
   std::optional<game::ThrowReport> step(Stamp now) override;
+  /// A throw for which nothing has been ordered yet, or nothing is on its way any more, is not begun (again): it has
+  /// failed with this reason. Any other goes on to its end.
+  void cancel(const std::string& reason);
   const servo::IceModel& ice() const { return ice_; }
 
  private:
   enum class Phase { idle, preparing, ordered, following, settling, counting };
   std::optional<game::ThrowReport> prepare(Stamp now);
+  std::optional<game::ThrowReport> preparing(const SkipView& view, Stamp now);
+  std::optional<game::ThrowReport> look_again(const std::string& why, Stamp now);
   std::optional<game::ThrowReport> order(const SkipView& view, Stamp now);
   std::optional<game::ThrowReport> ordered(const SkipView& view, Stamp now);
+  std::optional<game::ThrowReport> released(Stamp now);
   std::optional<game::ThrowReport> not_thrown(const std::string& why, Stamp now);
   std::optional<game::ThrowReport> counting(const SkipView& view, Stamp now);
   game::ThrowReport ended(const SkipView& view);
+  void learn(const servo::ThrownStones& seen);
   game::ThrowReport closed(game::ThrowEnd end, const std::string& reason);
+  void begin_again(const std::string& why, Stamp now);
   void begin_look(Phase phase, Stamp now);
 
   LiveSkip& skip_;
@@ -45,7 +53,11 @@ class LiveThrows final : public game::StoneThrower {
   Tell tell_;
   Phase phase_ = Phase::idle;
   Stamp since_{};
+  Stamp settled_{};
+  std::optional<Stamp> lost_since_;  ///< head or cameras, before anything was ordered
   int attempts_ = 0;
+  std::string cancelled_;
+  std::string not_begun_;
   std::uint32_t shot_ = 0;
   game::Turn turn_;
   game::ThrowReport report_;

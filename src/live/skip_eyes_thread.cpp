@@ -17,6 +17,7 @@ constexpr auto pause = std::chrono::milliseconds(1);
 std::optional<hw::Frame> SkipEyesThread::Box::latest(Stamp now) {
   const std::lock_guard lock(eyes_.mutex_);
   asked_ = now;
+  if (done_) hand_out_();
   return std::exchange(done_, std::nullopt);
 }
 
@@ -49,16 +50,37 @@ void SkipEyesThread::Box::deliver(const hw::Frame& frame) {
   done_ = hw::Frame{.bgr = {}, .stamp = frame.stamp, .id = frame.id};
 }
 
-SkipEyesThread::SkipEyesThread(SkipSeer& seer, hw::Camera& near, hw::Camera& far, const hw::Clock& clock)
-    : seer_(seer), clock_(clock), near_(*this, near), far_(*this, far), thread_([this](const std::stop_token& stop) {
-        run(stop);
-      }) {}
+SkipEyesThread::SkipEyesThread(MakeSeer make_seer, hw::Camera& near, hw::Camera& far, const hw::Clock& clock)
+    : make_seer_(std::move(make_seer)),
+      seer_(make_seer_()),
+      clock_(clock),
+      near_(*this, near, [this] { seen_.handed.near = sights_.near; }),
+      far_(*this, far, [this] { seen_.handed.far = sights_.far; }),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 SkipEyesThread::~SkipEyesThread() = default;
 
+void SkipEyesThread::forget() {
+  const std::lock_guard lock(mutex_);
+  known_ = {.diagnosis = {}, .throws = known_.throws + 1};
+  near_.forget();
+  far_.forget();
+}
+
+// In the thread that looks.
+SkipEyesThread::Known SkipEyesThread::known() {
+  Known known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = known_;
+  }
+  if (std::exchange(seer_of_, known.throws) != known.throws) seer_ = make_seer_();
+  return known;
+}
+
 void SkipEyesThread::note(const hw::HeadState& head, const servo::SkipDiagnosis& known) {
   const std::lock_guard lock(mutex_);
-  known_ = known;
+  known_.diagnosis = known;
   if (heads_.empty() || head.stamp > heads_.back().stamp) heads_.push_back(head);
   while (heads_.size() > 2 && heads_.front().stamp < head.stamp - remembered) heads_.pop_front();
 }
@@ -87,14 +109,11 @@ bool SkipEyesThread::look_near() {
   const auto frame = near_.take();
   const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
   if (!q) return false;
-  servo::SkipDiagnosis known;
-  {
-    const std::lock_guard lock(mutex_);
-    known = known_;
-  }
-  servo::NearSight sight = seer_.near_view(*frame, *q, known);
+  const Known known = this->known();
+  servo::NearSight sight = seer_->near_view(*frame, *q, known.diagnosis);
   const std::lock_guard lock(mutex_);
-  seen_.near = std::move(sight);
+  if (known.throws != known_.throws) return true;
+  sights_.near = std::move(sight);
   near_.deliver(*frame);
   return true;
 }
@@ -103,14 +122,11 @@ bool SkipEyesThread::look_far() {
   const auto frame = far_.take();
   const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
   if (!q) return false;
-  servo::SkipDiagnosis known;
-  {
-    const std::lock_guard lock(mutex_);
-    known = known_;
-  }
-  FarPercept percept = seer_.far_view(*frame, *q, known);
+  const Known known = this->known();
+  FarPercept percept = seer_->far_view(*frame, *q, known.diagnosis);
   const std::lock_guard lock(mutex_);
-  seen_.far = std::move(percept);
+  if (known.throws != known_.throws) return true;
+  sights_.far = std::move(percept);
   far_.deliver(*frame);
   return true;
 }

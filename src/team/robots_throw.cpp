@@ -9,6 +9,7 @@
 #include "servo/skip_sheet.hpp"
 #include "servo/stone_path.hpp"
 #include "src/team/seen_trajectory.hpp"
+#include "src/team/stone_names.hpp"
 #include "src/team/turn_order.hpp"
 #include "vision/geometry/sheet.hpp"
 
@@ -31,16 +32,6 @@ constexpr double spin_radps = 1.5;
 constexpr int path_periods = 20;
 constexpr Duration stone_told_every = std::chrono::seconds(4);
 constexpr double speed_reserve_mps = 0.1;
-
-/// Of the worst seen stone in the house, in any direction.
-double house_sigma_m(const std::vector<StoneSighting>& counted) {
-  double sigma_m = 0.0;
-  for (const StoneSighting& s : counted) {
-    if (std::hypot(s.x_m, s.y_m) > servo::in_sheet::house_radius_m + servo::in_sheet::stone_radius_m) continue;
-    sigma_m = std::max(sigma_m, std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2)));
-  }
-  return sigma_m;
-}
 
 std::string words(const game::Turn& turn) {
   return fmt::format("stone {} of team {}", turn.stone + 1, side_of(turn.team) + 1);

@@ -110,7 +110,7 @@ void SkipMember::send_order(Stamp now) {
                              : missing;
     return;
   }
-  message.thrower_session = link_.peer_session(now);
+  message.thrower_session = thrower_session_ = link_.peer_session(now);
   const auto sent = link_.send(message, now);
   ordered_ = sent == hw::TeamSendResult::sent ? OrderPhase::sent : OrderPhase::refused;
   if (ordered_ == OrderPhase::sent) ++orders_;
@@ -125,6 +125,8 @@ void SkipMember::listen(Stamp now) {
   }
 }
 
+bool SkipMember::order_is_open() const { return ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing; }
+
 bool SkipMember::thrower_armed(Stamp now) const {
   return thrower_ && thrower_->armed && thrower_->origin.session == link_.peer_session(now) && missing(now).empty();
 }
@@ -132,8 +134,13 @@ bool SkipMember::thrower_armed(Stamp now) const {
 void SkipMember::take(const hw::ThrowerStateMessage& state) {
   thrower_ = state;
   using hw::ThrowerPhase;
-  const bool open = ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing;
-  if (!open || state.order_serial != orders_) return;
+  if (!order_is_open()) return;
+  if (!held_ && state.origin.session > thrower_session_) {
+    ordered_ = OrderPhase::refused;
+    why_ = "the thrower was started anew: it knows of no order";
+    return;
+  }
+  if (state.order_serial != orders_ || state.origin.session != thrower_session_) return;
   if (state.phase == ThrowerPhase::stopped || state.phase == ThrowerPhase::fault) {
     ordered_ = OrderPhase::refused;
     why_ = state.reason;
@@ -144,7 +151,7 @@ void SkipMember::take(const hw::ThrowerStateMessage& state) {
 
 void SkipMember::take(const hw::ReleaseMessage& release, Stamp now) {
   const auto at = link_.local(release.origin.stamp, now);
-  if (release.order_serial != orders_ || release_ || !at) return;
+  if (release.order_serial != orders_ || release.origin.session != thrower_session_ || release_ || !at) return;
   release_ = release;
   released_at_ = at;
   ordered_ = OrderPhase::released;
@@ -156,8 +163,8 @@ void SkipMember::tell(Stamp now) {
   if (has_looked() && !board_told_) tell_board(now);
   if (loop_->skip().state() == servo::SkipState::follow && now >= next_track_) tell_track(now);
   if (over() && !outcome_told_) tell_outcome(now);
-  const bool runs = !held_ && (ordered_ == OrderPhase::sent || ordered_ == OrderPhase::throwing);
-  if (over() && runs && !stopping_) stop_thrower(true, "the skip: " + loop_->skip().report().reason, now);
+  if (over() && !held_ && order_is_open() && !stopping_)
+    stop_thrower(true, "the skip: " + loop_->skip().report().reason, now);
 }
 
 void SkipMember::tell_board(Stamp now) {

@@ -55,6 +55,8 @@ class SkipMember {
   /// answer to us, because one of us was just started, is waited for; then the order is refused.
   void order(const servo::ShotOrder& order, std::uint32_t shot, Team team, Stamp now);
   OrderPhase ordered() const { return ordered_; }
+  /// It is on its way: what becomes of it is not known yet.
+  bool order_is_open() const;
   /// Why, when refused.
   const std::string& why() const { return why_; }
   /// What the thrower told of the release of this order.
@@ -91,8 +93,9 @@ class SkipMember {
   std::optional<hw::ReleaseMessage> release_;
   std::optional<Stamp> released_at_;
   Team team_ = Team::unknown;
-  std::uint64_t orders_ = 0;  ///< sent since the start: the serial of the last
-  bool stopping_ = false;     ///< an emergency stop of ours is in force
+  std::uint64_t orders_ = 0;           ///< sent since the start: the serial of the last
+  std::uint64_t thrower_session_ = 0;  ///< to which it was sent: a later start knows nothing of it
+  bool stopping_ = false;              ///< an emergency stop of ours is in force
   bool board_told_ = false;
   bool outcome_told_ = false;
   Stamp next_track_{};

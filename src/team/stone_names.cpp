@@ -184,4 +184,13 @@ StonesAfter stones_after(const SeenThrow& seen) {
   return after;
 }
 
+double house_sigma_m(const std::vector<StoneSighting>& counted) {
+  double sigma_m = 0.0;
+  for (const StoneSighting& s : counted) {
+    if (std::hypot(s.x_m, s.y_m) > servo::in_sheet::house_radius_m + servo::in_sheet::stone_radius_m) continue;
+    sigma_m = std::max(sigma_m, std::sqrt(std::max(s.covariance.xx_m2, s.covariance.yy_m2)));
+  }
+  return sigma_m;
+}
+
 }  // namespace hogline

@@ -44,4 +44,7 @@ struct StonesAfter {
 /// that certainly touched a sideline on its way is out wherever it lies.
 StonesAfter stones_after(const SeenThrow& seen);
 
+/// One sigma of the worst seen stone in the house, in any direction (sightings in the skip's e); 0: none is there.
+double house_sigma_m(const std::vector<StoneSighting>& counted);
+
 }  // namespace hogline

@@ -14,6 +14,7 @@ constexpr auto pause = std::chrono::microseconds(500);
 std::optional<hw::Frame> VisionThread::Mailbox::latest(Stamp now) {
   const std::lock_guard lock(mutex_);
   asked_ = now;
+  if (done_) handed_ = percept_;
   return std::exchange(done_, std::nullopt);
 }
 
@@ -31,7 +32,7 @@ void VisionThread::Mailbox::rearm() {
 SheetPosePercept VisionThread::Mailbox::percept(const vision::LowViewPrediction& hint) {
   const std::lock_guard lock(mutex_);
   hint_ = hint;
-  return percept_;
+  return handed_;
 }
 
 bool VisionThread::Mailbox::wanted() const {

@@ -57,7 +57,8 @@ class VisionThread {
     vision::LowViewPrediction hint_;
     std::optional<hw::DeviceError> error_;
     std::optional<hw::Frame> done_;  ///< without its picture; not yet handed out
-    SheetPosePercept percept_;
+    SheetPosePercept percept_;       ///< in that frame
+    SheetPosePercept handed_;        ///< in the frame that was handed out last, whatever has been seen since
   };
 
   class MailboxSeer final : public SheetSeer {

@@ -218,7 +218,7 @@ class Follower:
 
 class Line:
     def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=60)
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=600)  # robots throw in the meantime
         self.file = self.socket.makefile("r", encoding="utf-8", newline="\n")
 
     def hear(self):

@@ -310,13 +310,24 @@ class Stones(unittest.TestCase):
 
     def test_a_sequence_is_averaged(self):
         one = json.loads(run("stones", "--rig", RIG, self.SKIP).stdout)
-        result = run("stones", "--rig", RIG, "--sequence", self.SKIP, self.SKIP, SCENE, self.SKIP)
+        result = run("stones", "--rig", RIG, "--sequence", self.SKIP, self.SKIP, self.SKIP)
         self.assertEqual(result.returncode, 0, result.stderr)
         line = json.loads(result.stdout)
-        self.assertEqual((line["pictures"], line["frames"]), (4, 4))
+        self.assertEqual((line["pictures"], line["frames"]), (3, 3))
         self.assertEqual(len(line["stones"]), len(one["stones"]))
         self.assertAlmostEqual(line["stones"][0]["x_m"], one["stones"][0]["x_m"], delta=1e-9)
         self.assertLess(line["stones"][0]["sigma_m"], one["stones"][0]["sigma_m"])
+
+    def test_pictures_from_two_places_are_not_taken_together(self):
+        result = run("stones", "--rig", RIG, "--sequence", self.SKIP, self.SKIP, SCENE)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        line = json.loads(result.stdout)
+        self.assertEqual((line["ok"], line["pictures"], line["frames"], line["stones"]), (False, 3, 0, []))
+        self.assertIn("stands 0.38 m and 3.1 deg from", line["reason"])
+        result = run("board", "--rig", RIG, self.SKIP, SCENE)
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("not of one robot that stands still: in " + SCENE, result.stderr)
+        self.assertIn(self.SKIP, result.stderr)
 
     def test_teams_are_called_as_the_rig_calls_them(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -8,7 +8,9 @@
 
 namespace hogline::vision {
 
-/// Why something is no stone by what is seen before its foot and over its grip; empty where there is no doubt.
+/// Why something is no stone by what is seen before its foot and over its grip; empty where there is no doubt. Paint of
+/// granite's grey before a stone is no reason by itself, nor is somebody behind it in its handle's colour: a person has
+/// both. A handle without a colour, which many things have, is refused for either, and where it is ice.
 std::string doubt_of_surroundings(const StonePicture& picture, const JudgedStone& stone,
                                   const std::vector<KnownStone>& nearer);
 

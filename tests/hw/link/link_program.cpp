@@ -57,6 +57,7 @@ int main(int count, char** arguments) {
          std::this_thread::sleep_for(std::chrono::milliseconds{20})) {
       say_everything(link, clock.now());
       tell_what_is_heard(link, clock.now());
+      if (link.state().impostors > 0) tell_once("impostors");
     }
   } catch (const LinkError& error) {
     std::printf("no link: %s\n", error.what());

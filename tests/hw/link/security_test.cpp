@@ -140,6 +140,36 @@ TEST_F(Keys, let_an_observer_read_but_order_nothing) {
   EXPECT_FALSE(thrower.says("heard 0 coach"));
 }
 
+// What is said is bound to who says it: by the partitions that the signed permissions allow a writer.
+TEST_F(Keys, do_not_let_one_of_the_team_speak_as_another) {
+  make("team");
+  const Robot thrower(config("thrower", "team"), folder / "thrower.txt");
+  const std::string keys = (folder / "team").string();
+  const auto words_of = [&](const std::string& name) {
+    std::ifstream file(folder / name);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  for (const std::vector<std::string>& partitions :
+       {std::vector<std::string>{"skip"}, {"-", "skip"}, {"-", "coach", "skip"}, {"*"}, {"s*"}}) {
+    std::vector<std::string> command{HOGLINE_IMPOSTOR_PROGRAM, std::to_string(domain), keys};
+    command.insert(command.end(), partitions.begin(), partitions.end());
+    const hil::Process refused(command, folder / "refused.txt");
+    EXPECT_TRUE(eventually([&] { return words_of("refused.txt") == "forbidden\n"; })) << words_of("refused.txt");
+    fs::remove(folder / "refused.txt");
+  }
+  const hil::Process nameless({HOGLINE_IMPOSTOR_PROGRAM, std::to_string(domain), keys}, folder / "nameless.txt");
+  const hil::Process as_coach({HOGLINE_IMPOSTOR_PROGRAM, std::to_string(domain), keys, "-", "coach"},
+                              folder / "as_coach.txt");
+  EXPECT_TRUE(eventually([&] { return thrower.says("impostors"); }));
+  EXPECT_THAT(words_of("nameless.txt"), HasSubstr("spoken"));
+  EXPECT_THAT(words_of("as_coach.txt"), HasSubstr("spoken"));
+  EXPECT_FALSE(thrower.says("heard 6 skip"));
+  EXPECT_FALSE(thrower.says("heard 7 skip"));
+  const Robot skip(config("skip", "team"), folder / "skip.txt");
+  EXPECT_TRUE(eventually([&] { return thrower.says("heard 6 skip") && thrower.says("heard 7 skip"); }))
+      << "the skip itself is heard";
+}
+
 TEST_F(Keys, take_a_process_for_each_robot) {
   make("team");
   const DdsTeamLink thrower(config("thrower", "team"), now(), utc_now());

@@ -45,6 +45,21 @@ TEST(PlaceBounds, GrowWithTheWayAndShrinkWithALook) {
   EXPECT_TRUE(run.contain_truth());
 }
 
+// Each tells of one side what the other does not: both are believed, so what they have in common is.
+TEST(PlaceBounds, TakeWhatTheyKnewAndWhatIsSeenHaveInCommon) {
+  Drive run;
+  run.go(10, true);
+  run.go(100, false);
+  const double blind_m = run.bounds.now()->half_width_m();
+  for (int i = 0; i < 2; ++i) {
+    run.go(1, false);
+    run.robot.look(0.8 * blind_m, 0.275 * blind_m);  // wider than what the wheels have carried here, off to one side
+    run.bounds.look(*run.robot.low);
+  }
+  EXPECT_LT(run.bounds.now()->half_width_m(), 0.9 * blind_m);
+  EXPECT_TRUE(run.contain_truth());
+}
+
 TEST(PlaceBounds, ALateLookActsAtItsOwnMoment) {
   Drive run;
   run.go(10, true);

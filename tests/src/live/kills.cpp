@@ -116,7 +116,7 @@ bool not_before(const std::string& state, const std::string& other) {
 
 // A busy machine may hold a loop up until a drive gives up its master: then the operator presses again.
 std::optional<Stamp> throw_began(TeamScene& scene) {
-  constexpr int attempts = 3;
+  constexpr int attempts = 10;
   for (int i = 0; i < attempts; ++i) {
     const Stamp begin = now();
     if (scene.skip_waits()) {
@@ -313,7 +313,7 @@ int main(int count, char** arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   const int trials = std::atoi(arguments[2]);
   std::mt19937 random(static_cast<std::uint32_t>(std::atol(arguments[3])));
-  TeamScene scene(arguments[1], {.whole_skip = true, .strategist = true});
+  TeamScene scene(arguments[1], {.whole_skip = true, .strategists = 1});
   std::vector<double> stops;
   int problems = 0;
   int moving = 0;

@@ -26,8 +26,7 @@ constexpr int throws = 4;
 void expect_no_replay_is_thrown(TeamScene& scene) {
   scene.hand().end();
   const Stamp begin = now();
-  scene.rink().say("again");
-  ASSERT_TRUE(wait_until([&] { return scene.rink().told_since(begin, "again").has_value(); }, patience));
+  ASSERT_TRUE(scene.put_back("again")) << all_of(scene.rink());
   scene.hand().start();
   ASSERT_TRUE(wait_until([&] { return scene.thrower().told_since(begin, "armed").has_value(); }, patience))
       << all_of(scene.thrower());
@@ -58,7 +57,7 @@ TEST(LiveTeam, a_shot_ordered_over_fast_dds_is_thrown_by_the_thrower_on_the_rink
     if (!thrown) {
       std::printf("%s", all_of(scene.thrower()).c_str());
       const auto aborted = scene.thrower().told_since(begin, "aborted");
-      in_time = in_time || !aborted || !is_lateness(aborted->what);
+      in_time = in_time || !aborted || !scene.was_late(*aborted);
       EXPECT_TRUE(scene.truth().back().held);
       continue;
     }

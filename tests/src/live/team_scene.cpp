@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -44,11 +45,20 @@ fs::path own_folder() {
 std::vector<TrueStone> stones_of(const json& line) {
   std::vector<TrueStone> stones;
   for (const json& stone : line.at("stones"))
-    stones.push_back({stone.at("x_m").get<double>(), stone.at("y_m").get<double>(), stone.at("thrown").get<bool>()});
+    stones.push_back({stone.at("x_m").get<double>(), stone.at("y_m").get<double>(), stone.at("thrown").get<bool>(),
+                      stone.at("team").get<int>()});
   return stones;
 }
 
-int strategist_port() { return 31000 + static_cast<int>(getpid()) % 10000; }
+// Below those that the kernel gives to outgoing lines; two of them.
+int strategist_port() { return 11000 + 2 * (static_cast<int>(getpid()) % 4500); }
+
+std::vector<std::string> client_command(int port, const std::string& name, bool waits) {
+  std::vector<std::string> command{"python3", HOGLINE_SOURCE_DIR "/tests/peers/digital_curling_client.py",
+                                   std::to_string(port), name};
+  if (waits) command.emplace_back("late");
+  return command;
+}
 
 Stamp stamp_of(double s) { return Stamp{from_seconds(s)}; }
 
@@ -77,10 +87,11 @@ std::vector<std::string> GrowingFile::news() {
 }
 
 Member::Member(std::string name, std::vector<std::string> command, const fs::path& folder,
-               std::vector<std::string> environment)
+               std::vector<std::string> environment, MachineWatch* watch)
     : name_(std::move(name)),
       command_(std::move(command)),
       environment_(std::move(environment)),
+      watch_(watch),
       output_(folder / (name_ + ".jsonl")) {}
 
 Member::~Member() { end(); }
@@ -117,6 +128,7 @@ void Member::start() {
   if (input_ >= 0) close(input_);
   input_ = pipe_ends[1];
   status_ = -1;
+  if (watch_ != nullptr) watch_->follow(name_, pid_);
 }
 
 bool Member::running() {
@@ -170,11 +182,39 @@ std::string all_of(Member& member) {
   return text;
 }
 
-bool is_lateness(const std::string& why) {
-  constexpr std::array<const char*, 9> words{
-      ": stale",     "control period: too long", "control loop did not run", "too old",  "no new set-point",
-      "no feedback", "no measurement arrives",   "refreshes came too late",  "is silent"};
-  return std::ranges::any_of(words, [&](const char* word) { return why.find(word) != std::string::npos; });
+// A word alone would excuse a loop that blocks itself, a frozen camera, or a bus that loses frames. So each is believed
+// only when the kernel says that those on whose time it depends could run and did not, or that the machine stood:
+// - the control loop's own: its thread, which runs before all but the devices' and the rink's;
+// - feedback of the drives: that thread, or the rink's world, which answers;
+// - the gyro's line: the same, or the kernel's own workers that carry a terminal's bytes. These run as other programs
+//   do, so that what the rink's renderers wait is what those wait;
+// - pictures: whoever renders them and whoever looks at them;
+// - gripper and arm: the threads that talk to them.
+bool TeamScene::was_late(const Told& given_up) const {
+  struct Excuse {
+    const char* word;
+    bool control;    ///< of a control loop or the rink's world; else of any thread of theirs
+    Duration least;  ///< of waiting within 50 ms: a good part of what the limit behind the word leaves
+  };
+  constexpr std::array<Excuse, 8> excuses{{{"control loop did not run", true, 15ms},
+                                           {"control period: too long", true, 15ms},
+                                           {"no new set-point", true, 15ms},
+                                           {"no feedback", true, 15ms},
+                                           {"no measurement arrives", false, 25ms},
+                                           {": stale", false, 40ms},
+                                           {"after its exposure", false, 40ms},
+                                           {"refreshes came too late", false, 25ms}}};
+  constexpr Duration before = 500ms;
+  const Stamp from = given_up.at - before;
+  for (const Excuse& excuse : excuses) {
+    if (given_up.what.find(excuse.word) == std::string::npos) continue;
+    const auto waited = [&](const char* who) { return watch_.longest(who, excuse.control, from, given_up.at + 100ms); };
+    const Duration longest = std::max({waited("machine"), waited("thrower"), waited("rink"), waited("skip")});
+    std::printf("%s: within 50 ms of those before, a thread waited %.1f ms for a processor; %.1f ms excuse it\n",
+                given_up.what.c_str(), 1e3 * seconds(longest), 1e3 * seconds(excuse.least));
+    return longest >= excuse.least;
+  }
+  return false;
 }
 
 TeamScene::TeamScene(const std::string& hogline, const SceneOptions& options)
@@ -184,14 +224,12 @@ TeamScene::TeamScene(const std::string& hogline, const SceneOptions& options)
       domain_(1 + static_cast<std::uint32_t>(getpid()) % 200),
       thrower_rig_(keep("thrower", thrower_rig())),
       skip_rig_(keep("skip", options.whole_skip ? skip_rig() : order_rig())),
-      rink_("rink", rink_command(), folder_),
-      thrower_("thrower", {hogline, "thrower", "--rig", thrower_rig_}, folder_, options.thrower_environment),
+      rink_("rink", rink_command(), folder_, {}, &watch_),
+      thrower_("thrower", {hogline, "thrower", "--rig", thrower_rig_}, folder_, options.thrower_environment, &watch_),
       hand_("hand", {hogline, "hold", "--rig", thrower_rig_}, folder_),
-      skip_("skip", skip_command(), folder_, options.skip_environment),
-      strategist_("strategist",
-                  {"python3", HOGLINE_SOURCE_DIR "/tests/peers/digital_curling_client.py",
-                   std::to_string(strategist_port()), "client", "late"},
-                  folder_),
+      skip_("skip", skip_command(), folder_, options.skip_environment, &watch_),
+      strategist_("strategist", client_command(strategist_port(), "client", options.strategist_waits), folder_),
+      second_strategist_("second-strategist", client_command(strategist_port() + 1, "other", false), folder_),
       truth_file_(folder_ / "truth.jsonl") {
   if (options.secure) make_keys("keys");
 }
@@ -218,18 +256,22 @@ std::vector<std::string> TeamScene::rink_command() const {
 std::vector<std::string> TeamScene::skip_command() const {
   std::vector<std::string> command{hogline_, "order", "--rig", skip_rig_, "--stay"};
   if (options_.whole_skip) command = {hogline_, "skip", "--live", "--rig", skip_rig_};
-  if (options_.strategist) {
+  if (options_.strategists > 0) {
     for (const std::string& word :
          {std::string("--thrower-rig"), thrower_rig_, std::string("--team0"), "dc:" + std::to_string(strategist_port()),
           std::string("--thinking"), std::string("15"), std::string("--out"), (folder_ / "game").string()})
       command.push_back(word);
+  }
+  if (options_.strategists > 1) {
+    command.emplace_back("--team1");
+    command.push_back("dc:" + std::to_string(strategist_port() + 1));
   }
   command.insert(command.end(), options_.skip_arguments.begin(), options_.skip_arguments.end());
   return command;
 }
 
 TeamScene::~TeamScene() {
-  for (Member* member : {&hand_, &strategist_, &skip_, &thrower_, &rink_}) member->end();
+  for (Member* member : {&hand_, &strategist_, &second_strategist_, &skip_, &thrower_, &rink_}) member->end();
   std::error_code problem;
   fs::remove_all(folder_, problem);
 }
@@ -297,6 +339,7 @@ const std::vector<TrueMoment>& TeamScene::truth() {
 bool TeamScene::set_up() {
   hand_.end();
   strategist_.end();
+  second_strategist_.end();
   skip_.end();
   rink_.start();
   if (!wait_until([this] { return rink_.running() && !truth().empty() && now() - truth_.back().at < 1s; }, 30s))
@@ -311,10 +354,21 @@ bool TeamScene::set_up() {
       }
     return last == "session" || last == "disarmed";
   };
-  if (!wait_until(thrower_waits, 30s)) return false;
-  const Stamp asked = now();
-  rink_.say("again 0");
-  return wait_until([&] { return rink_.told_since(asked, "again").has_value(); }, 30s);
+  return wait_until(thrower_waits, 30s) && put_back("again 0");
+}
+
+bool TeamScene::put_back(const std::string& order) {
+  const Stamp begin = now();
+  std::optional<Stamp> asked;
+  const auto put = [&] {
+    if (rink_.told_since(begin, "again")) return true;
+    if (!asked || rink_.told_since(*asked, "refused")) {
+      asked = now();
+      rink_.say(order);
+    }
+    return false;
+  };
+  return wait_until(put, 60s);
 }
 
 bool TeamScene::skip_is_heard() {
@@ -342,10 +396,12 @@ bool TeamScene::skip_waits() {
 bool TeamScene::begin_game() {
   if (!skip_is_heard()) return false;
   strategist_.end();
+  second_strategist_.end();
   const Stamp begin = now();
   skip_.say("play");
   if (!wait_until([&] { return skip_.told_since(begin, "table").has_value(); }, 30s)) return false;
   strategist_.start();
+  if (options_.strategists > 1) second_strategist_.start();
   return wait_until([&] { return skip_.told_since(begin, "asked").has_value(); }, 30s);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/src/live/machine_watch.hpp"
 #include "vision/percepts/stamp.hpp"
 
 namespace hogline::live_test {
@@ -43,6 +44,7 @@ struct TrueStone {
   double x_m = 0.0;
   double y_m = 0.0;
   bool thrown = false;
+  int team = 0;
 };
 
 /// Lines of a file that grows, each read once.
@@ -62,8 +64,9 @@ class GrowingFile {
 /// however that ends.
 class Member {
  public:
+  /// `watch`: is told of each start; must outlive it.
   Member(std::string name, std::vector<std::string> command, const std::filesystem::path& folder,
-         std::vector<std::string> environment = {});
+         std::vector<std::string> environment = {}, MachineWatch* watch = nullptr);
   ~Member();
   Member(const Member&) = delete;
   Member& operator=(const Member&) = delete;
@@ -88,6 +91,7 @@ class Member {
   std::string name_;
   std::vector<std::string> command_;
   std::vector<std::string> environment_;  ///< beside our own
+  MachineWatch* watch_;
   GrowingFile output_;
   std::vector<Told> told_;
   pid_t pid_ = -1;
@@ -102,15 +106,12 @@ struct SceneOptions {
   std::vector<std::string> thrower_environment{};
   std::vector<std::string> skip_environment{};
   std::vector<std::string> skip_arguments{};
-  bool strategist =
-      false;  ///< a Digital Curling client decides for the first team, and thinks until it is told to move
+  int strategists = 0;           ///< Digital Curling clients at the skip's table: none, for the first team, for both
+  bool strategist_waits = true;  ///< the first team's thinks in its first turn until it is told to move
 };
 
 /// All that it has told, a line each, for whoever wants to know why.
 std::string all_of(Member& member);
-
-/// What a machine that is too slow for the rink's clock makes of a throw: it is given up, for this reason.
-bool is_lateness(const std::string& why);
 
 /// Rink, thrower, its operator's hand, and a skip: with lines of this run's own.
 class TeamScene {
@@ -124,6 +125,7 @@ class TeamScene {
   Member& hand() { return hand_; }
   Member& skip() { return skip_; }
   Member& strategist() { return strategist_; }
+  Member& second_strategist() { return second_strategist_; }
   std::uint32_t domain() const { return domain_; }
   const std::string& skip_rig_file() const { return skip_rig_; }
   /// Keys of a team of this domain, in a folder of this name; also those of a coach.
@@ -136,10 +138,16 @@ class TeamScene {
   const std::vector<std::vector<TrueStone>>& rests() const { return rests_; }
   /// The robot stands in the hack with a stone, everybody is there, nobody holds the switch.
   bool set_up();
+  /// The robot goes back to the hack for its next stone, by this order to the rink, which refuses it as long as a stone
+  /// of the turn before still runs: it is asked until it is done. False: it does not come to that.
+  bool put_back(const std::string& order);
   /// The skip that is one has looked, waits for a stone, and hears the thrower. False: it does not come to that.
   bool skip_waits();
-  /// The skip plays, and the strategist sits at its table. False: it does not come to that.
+  /// The skip plays, and its strategists sit at its table. False: it does not come to that.
   bool begin_game();
+  /// It was given up, or ended, for a reason that a machine too slow for the rink's clock makes, and the kernel says
+  /// that it did keep those waiting of whose time the reason speaks.
+  bool was_late(const Told& given_up) const;
 
  private:
   bool skip_is_heard();
@@ -158,11 +166,13 @@ class TeamScene {
   std::uint32_t domain_;
   std::string thrower_rig_;
   std::string skip_rig_;  ///< of whoever orders
+  MachineWatch watch_;
   Member rink_;
   Member thrower_;
   Member hand_;
   Member skip_;
   Member strategist_;
+  Member second_strategist_;
   GrowingFile truth_file_;
   std::vector<TrueMoment> truth_;
   std::vector<std::vector<TrueStone>> rests_;

@@ -13,6 +13,11 @@ namespace hogline::vision::testing {
 FarSetup far_setup_of(const CameraSetup& camera);
 FarPlan far_plan_of(const hogline::testing::FarScene& far);
 
+/// Five to eight stones, with people, neighbours' stones and logos.
+hogline::testing::FarMix crowded();
+/// No stone on the sheet, but people, logos and stones of the next sheets.
+hogline::testing::FarMix nobodys_stones();
+
 /// A look at the scene's picture from its plan.
 FarPercept look_far(const hogline::testing::FarScene& far);
 
@@ -21,7 +26,8 @@ struct FarScore {
   int in_sight = 0;  ///< stones, by their geometry: half the handle, four fifths of handle and body
   int missed = 0;
   int ghosts = 0;
-  int wrong_team = 0;
+  int wrong_team = 0;                               ///< the other one's
+  int unknown_team = 0;                             ///< nobody's
   std::vector<double> across_m, along_m;            ///< errors
   std::vector<double> across_sigmas, along_sigmas;  ///< the same in whole sigmas
   std::vector<double> tilt_rad, tilt_sigmas;        ///< errors of the corrected tilt
@@ -30,6 +36,10 @@ struct FarScore {
   static double rms(const std::vector<double>& values);
   static double mean(const std::vector<double>& values);
 };
+
+/// What was seen of a scene against its truth: each stone has the sighting that is nearest, and each sighting one
+/// stone.
+void add_look(const hogline::testing::FarScene& far, const FarPercept& seen, FarScore& score);
 
 /// `count` scenes from seed `first` on.
 FarScore score_far(std::uint64_t first, int count, const hogline::testing::FarMix& mix);
