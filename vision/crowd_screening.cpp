@@ -5,17 +5,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/detect/granite.hpp"
+#include "vision/stone_looks.hpp"
 
 namespace hogline::vision {
 namespace {
 
-constexpr double least_granite = 0.20;  // of the body's front; a nearer stone's granite counts, too
 constexpr double same_place_m = 0.2;
-constexpr double hiding_m = 1.2;                    // a stone farther behind another is seen over it
-constexpr double least_handle = 0.35;               // share of the plate that has a handle's colour
-constexpr int most_rounds = 3;                      // a stone behind one behind one
-constexpr std::array starts{0.0, -1.0, 1.0, -2.0};  // steps along the line of sight from the votes' place
+constexpr double least_handle = 0.35;  // share of the plate that has a handle's colour
+constexpr int most_rounds = 3;         // a stone behind one behind one
+constexpr double least_body = 0.15;    // share of a body's outline: else the votes may be a grip's
+constexpr double grip_m = 0.05;        // over the plate
 constexpr double rows_a_step = 2.0;
 constexpr double least_step_m = 0.03;
 constexpr double most_step_m = 0.10;
@@ -29,12 +28,23 @@ constexpr double most_foreground = 0.7;
 StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120}; }
 StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200}; }
 
-// A grip, a ring's edge or a neighbour pulls votes along the line of sight farther than a fit finds back.
-Eigen::Vector2d moved_away(const StonePicture& picture, const Eigen::Vector2d& place, double steps) {
-  const Bearing bearing = bearing_of(place, picture.eye());
-  const double row_m = bearing.range_m * bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m) /
-                       picture.camera.lens().intrinsics().fy_px;
-  return place + steps * std::clamp(rows_a_step * row_m, least_step_m, most_step_m) * bearing.away;
+/// Where a fit may begin.
+struct Start {
+  Eigen::Vector2d place;
+  bool always;  ///< else only where the fits before it were promising
+};
+
+// A grip, a ring's edge or a neighbour pulls votes along the line of sight farther than a fit finds back. Where a
+// body's outline is missing they may be a grip's altogether, which is seen over what stands farther away.
+std::vector<Start> starts_of(const StonePicture& picture, const StoneCandidate& candidate) {
+  const Bearing bearing = bearing_of(candidate.place, picture.eye());
+  const double per_height = bearing.range_m / (picture.eye().z() - picture.shape.handle_height_m);
+  const double row_m = bearing.range_m * per_height / picture.camera.lens().intrinsics().fy_px;
+  const double step_m = std::clamp(rows_a_step * row_m, least_step_m, most_step_m);
+  std::vector<Start> all{{candidate.place, true}};
+  if (candidate.body_votes < least_body) all.push_back({candidate.place - grip_m * per_height * bearing.away, true});
+  for (const double steps : {-1.0, 1.0, -2.0}) all.push_back({candidate.place + steps * step_m * bearing.away, false});
+  return all;
 }
 
 bool hides_some(const Foreground& before) {
@@ -47,67 +57,19 @@ double worth(const JudgedStone& s) {
   return s.fit.told * s.fit.explained * (1.0 - drift_counts * std::min(1.0, drift_m));
 }
 
+// What does not look like a stone was left out of it, so that what is left tells more than it is worth.
+bool is_cut_out(const JudgedStone& s) { return in_the_way_of(s.before, false) == InTheWay::what_it_is_not; }
+
 bool is_better(const JudgedStone& a, const JudgedStone& b) {
   if (a.doubt.empty() != b.doubt.empty()) return a.doubt.empty();
   return a.fit.told * a.fit.explained > b.fit.told * b.fit.explained;
 }
 
-// A stone stands there already.
-bool is_taken(const Eigen::Vector2d& place, const std::vector<JudgedStone>& stones) {
-  return std::any_of(stones.begin(), stones.end(), [&place](const JudgedStone& s) {
-    return s.doubt.empty() && (s.fit.place - place).norm() < same_place_m;
-  });
-}
-
-JudgedStone refused(const StoneCandidate& candidate, const char* why) {
-  JudgedStone stone{candidate, FittedStone(), why};
-  stone.fit.place = candidate.place;
-  return stone;
-}
-
-std::vector<KnownStone> known_of(const std::vector<JudgedStone>& stones) {
-  std::vector<KnownStone> known;
-  for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
-  }
-  return known;
-}
-
-std::vector<NearerStone> believed(const std::vector<JudgedStone>& stones) {
-  std::vector<NearerStone> known;
-  for (const JudgedStone& s : stones) {
-    if (s.doubt.empty()) known.push_back({s.fit.place, s.fit.handle});
-  }
-  return known;
-}
-
 }  // namespace
-
-bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye) {
-  return std::any_of(others.begin(), others.end(), [&](const NearerStone& other) {
-    const double apart_m = (other.place - place).norm();
-    return (other.place - eye).norm() < (place - eye).norm() && apart_m < hiding_m && apart_m > same_place_m;
-  });
-}
 
 std::vector<JudgedStone> CrowdScreening::look(const StonePicture& picture,
                                               const std::vector<StoneCandidate>& candidates) {
-  std::vector<JudgedStone> stones;
-  for (const StoneCandidate& c : candidates) {
-    if (is_taken(c.place, stones)) continue;
-    if (granite_share(picture, c.place) < least_granite) {
-      stones.push_back(refused(c, "no granite below the handle"));
-      continue;
-    }
-    fitter_.begin(picture, {{c.place}}, quick_look());
-    if (is_hopeless(fitter_.first_granite())) {
-      stones.push_back(refused(c, "its colours are no stone's"));
-      continue;
-    }
-    const FittedStone& fit = fitter_.run().stones[0];
-    stones.push_back({c, fit, doubt_of(c, fit, false)});
-  }
-  return stones;
+  return look_at_each(picture, candidates, quick_look(), fitter_);
 }
 
 void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedStone>& stones) {
@@ -134,19 +96,29 @@ void CrowdScreening::tell_apart(const StonePicture& picture, std::vector<JudgedS
 std::vector<StoneCandidate> CrowdScreening::worth_another_look(const StonePicture& picture,
                                                                const std::vector<JudgedStone>& stones,
                                                                const Light& granite) const {
-  const std::vector<NearerStone> known = believed(stones);
+  const std::vector<KnownStone> known = believed(stones);
   const Eigen::Vector2d eye = picture.eye().head<2>();
   std::vector<StoneCandidate> worth_it;
   for (const JudgedStone& s : stones) {
     if (s.doubt.empty()) continue;
-    const bool promising = s.fit.told >= least_promising || may_be_hidden(s.candidate.place, known, eye) ||
-                           hides_some(Foreground(picture, s.candidate.place, granite, teams_));
+    const Eigen::Vector2d& place = s.candidate.place;
+    const bool promising = s.fit.told >= least_promising || (!s.candidate.faint && may_be_hidden(place, known, eye)) ||
+                           may_be_half_hidden(picture, place, granite);
     if (promising) worth_it.push_back(s.candidate);
   }
   return worth_it;
 }
 
+// By somebody.
+bool CrowdScreening::may_be_half_hidden(const StonePicture& picture, const Eigen::Vector2d& place,
+                                        const Light& granite) const {
+  if (!looks_like_a_handle(picture, place)) return false;
+  return hides_some(Foreground(picture, place, granite, teams_, Foreground::By::run)) ||
+         hides_some(Foreground(picture, place, granite, teams_, Foreground::By::unlike));
+}
+
 void CrowdScreening::look_again(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  if (!clubs_granite(stones)) look_alone(picture, stones);
   if (const auto granite = clubs_granite(stones)) {
     glimpse_round_by_round(picture, worth_another_look(picture, stones, *granite), *granite, stones);
   }
@@ -159,21 +131,34 @@ void CrowdScreening::look_behind(const StonePicture& picture, std::vector<Judged
 void CrowdScreening::glimpse_round_by_round(const StonePicture& picture, const std::vector<StoneCandidate>& doubted,
                                             const Light& granite, std::vector<JudgedStone>& stones) {
   const Eigen::Vector2d eye = picture.eye().head<2>();
-  std::vector<KnownStone> newest = known_of(stones);
-  std::vector<NearerStone> newcomers;
+  std::vector<KnownStone> newest = believed(stones);
   for (int round = 0; round < most_rounds && !newest.empty(); ++round) {
     const std::size_t before = stones.size();
-    std::vector<StoneCandidate> candidates = handles_.find(picture, known_of(stones), newest);
+    std::vector<StoneCandidate> candidates = handles_.find(picture, believed(stones), newest);
     for (const StoneCandidate& c : doubted) {
-      if (round == 0 || may_be_hidden(c.place, newcomers, eye)) candidates.push_back(c);
+      if (round == 0 || may_be_hidden(c.place, newest, eye)) candidates.push_back(c);
     }
     glimpse_all(picture, candidates, granite, stones);
     newest.clear();
-    newcomers.clear();
     for (std::size_t i = before; i < stones.size(); ++i) {
-      if (!stones[i].doubt.empty()) continue;
-      newest.push_back({stones[i].fit.place, stones[i].fit.handle});
-      newcomers.push_back({stones[i].fit.place, stones[i].fit.handle});
+      if (stones[i].doubt.empty()) newest.push_back({stones[i].fit.place, stones[i].fit.handle});
+    }
+  }
+}
+
+// Of a sheet's only stone the granite can not be known before it is found.
+void CrowdScreening::look_alone(const StonePicture& picture, std::vector<JudgedStone>& stones) {
+  for (JudgedStone& s : stones) {
+    if (s.fit.told < least_promising || !looks_like_a_handle(picture, s.candidate.place)) continue;
+    if (is_taken(s.candidate.place, stones)) continue;
+    for (const Start& start : starts_of(picture, s.candidate)) {
+      fitter_.begin(picture, {{start.place}}, careful_look());
+      const FittedStone& fit = fitter_.run().stones[0];
+      JudgedStone moved{s.candidate, fit, doubt_of(s.candidate, fit, false)};
+      moved.moved_alone = true;
+      if (!moved.doubt.empty() || !has_its_grip(picture, moved, teams_)) continue;
+      s = moved;
+      break;
     }
   }
 }
@@ -186,14 +171,15 @@ void CrowdScreening::look_at(const StonePicture& picture, const std::vector<Ston
 // The best first: where several come out in one place, it keeps it.
 void CrowdScreening::glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates,
                                  const Light& granite, std::vector<JudgedStone>& stones) {
-  const std::vector<NearerStone> known = believed(stones);
+  const std::vector<KnownStone> known = believed(stones);
   std::vector<JudgedStone> glimpsed;
   for (const StoneCandidate& c : candidates) {
     if (is_taken(c.place, stones) || !looks_like_a_handle(picture, c.place)) continue;
     glimpsed.push_back(glimpse(picture, c, known, granite));
   }
-  std::sort(glimpsed.begin(), glimpsed.end(),
-            [](const JudgedStone& a, const JudgedStone& b) { return worth(a) > worth(b); });
+  std::sort(glimpsed.begin(), glimpsed.end(), [](const JudgedStone& a, const JudgedStone& b) {
+    return is_cut_out(a) != is_cut_out(b) ? is_cut_out(b) : worth(a) > worth(b);
+  });
   for (JudgedStone& s : glimpsed) {
     if (s.doubt.empty() && is_taken(s.fit.place, stones)) s.doubt = no_room;
     stones.push_back(s);
@@ -206,7 +192,7 @@ void CrowdScreening::place_again(const StonePicture& picture, std::vector<Judged
   if (!granite) return;
   for (JudgedStone& s : stones) {
     if (!s.doubt.empty() || s.fit.told > well_told) continue;
-    std::vector<NearerStone> others;
+    std::vector<KnownStone> others;
     for (const JudgedStone& other : stones) {
       if (&other != &s && other.doubt.empty()) others.push_back({other.fit.place, other.fit.handle});
     }
@@ -217,30 +203,33 @@ void CrowdScreening::place_again(const StonePicture& picture, std::vector<Judged
 }
 
 JudgedStone CrowdScreening::glimpse(const StonePicture& picture, const StoneCandidate& candidate,
-                                    const std::vector<NearerStone>& known, const Light& granite) {
+                                    const std::vector<KnownStone>& known, const Light& granite) {
   JudgedStone best = glimpse_from_starts(picture, candidate, known, granite, {});
   if (best.doubt.empty()) return best;
-  const Foreground before(picture, candidate.place, granite, teams_);
-  if (!hides_some(before)) return best;
-  const JudgedStone half = glimpse_from_starts(picture, candidate, known, granite, before);
-  return is_better(half, best) ? half : best;
+  for (const Foreground::By by : {Foreground::By::run, Foreground::By::unlike}) {
+    const Foreground before(picture, candidate.place, granite, teams_, by);
+    if (!hides_some(before)) continue;
+    const JudgedStone half = glimpse_from_starts(picture, candidate, known, granite, before);
+    if (is_better(half, best)) best = half;
+    if (best.doubt.empty()) break;
+  }
+  return best;
 }
 
 JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, const StoneCandidate& candidate,
-                                                const std::vector<NearerStone>& known, const Light& granite,
+                                                const std::vector<KnownStone>& known, const Light& granite,
                                                 const std::optional<Foreground>& before) {
   StoneFitOptions options = careful_look();
   options.nearer = known;
-  const bool in_plain_sight = !before && !may_be_hidden(candidate.place, known, picture.eye().head<2>());
+  const InTheWay in_the_way = in_the_way_of(before, may_be_hidden(candidate.place, known, picture.eye().head<2>()));
   JudgedStone best;
-  for (const double steps : starts) {
-    const Eigen::Vector2d start = moved_away(picture, candidate.place, steps);
-    fitter_.begin(picture, {{start, granite, before ? &*before : nullptr}}, options);
+  for (const Start& start : starts_of(picture, candidate)) {
+    if (!start.always && best.fit.told < least_promising) continue;
+    fitter_.begin(picture, {{start.place, granite, before ? &*before : nullptr}}, options);
     const FittedStone& fit = fitter_.run().stones[0];
-    const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_plain_sight), true, before};
-    if (steps == starts.front() || is_better(seen, best)) best = seen;
+    const JudgedStone seen{candidate, fit, doubt_of_glimpse(candidate, fit, granite, in_the_way), true, before};
+    if (!best.glimpsed || is_better(seen, best)) best = seen;
     if (best.doubt.empty() && best.fit.told > well_told) break;
-    if (best.fit.told < least_promising) break;
   }
   return best;
 }

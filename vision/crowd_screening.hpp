@@ -9,12 +9,10 @@
 #include "vision/detect/stone_team.hpp"
 #include "vision/detect/stone_vote.hpp"
 #include "vision/fit/stone_fit.hpp"
+#include "vision/stone_looks.hpp"
 #include "vision/stone_verdict.hpp"
 
 namespace hogline::vision {
-
-/// Something nearer than `place` is among the stones, and may hide parts of it. `eye` on the ice, in e.
-bool may_be_hidden(const Eigen::Vector2d& place, const std::vector<NearerStone>& others, const Eigen::Vector2d& eye);
 
 class CrowdScreening {
  public:
@@ -43,16 +41,18 @@ class CrowdScreening {
  private:
   std::vector<StoneCandidate> worth_another_look(const StonePicture& picture, const std::vector<JudgedStone>& stones,
                                                  const Light& granite) const;
+  bool may_be_half_hidden(const StonePicture& picture, const Eigen::Vector2d& place, const Light& granite) const;
   bool looks_like_a_handle(const StonePicture& picture, const Eigen::Vector2d& place) const;
   void glimpse_round_by_round(const StonePicture& picture, const std::vector<StoneCandidate>& doubted,
                               const Light& granite, std::vector<JudgedStone>& stones);
+  void look_alone(const StonePicture& picture, std::vector<JudgedStone>& stones);
   void glimpse_all(const StonePicture& picture, const std::vector<StoneCandidate>& candidates, const Light& granite,
                    std::vector<JudgedStone>& stones);
   JudgedStone glimpse(const StonePicture& picture, const StoneCandidate& candidate,
-                      const std::vector<NearerStone>& known, const Light& granite);
+                      const std::vector<KnownStone>& known, const Light& granite);
 
   JudgedStone glimpse_from_starts(const StonePicture& picture, const StoneCandidate& candidate,
-                                  const std::vector<NearerStone>& known, const Light& granite,
+                                  const std::vector<KnownStone>& known, const Light& granite,
                                   const std::optional<Foreground>& before);
 
   TeamHues teams_;

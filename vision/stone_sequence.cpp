@@ -93,7 +93,7 @@ StonesPercept StoneSequence::Impl::report(const StonePicture& picture, const Sto
   seen.ok = true;
   seen.stamp = stamp;
   std::vector<Eigen::Vector2d> places;
-  for (const NearerStone& s : scene.believed()) places.push_back(s.place);
+  for (const KnownStone& s : scene.believed()) places.push_back(s.place);
   for (const Known& k : known) {
     if (!k.in_sight || !area.contains(k.seen.fit.place)) continue;
     seen.stones.push_back(sighting_of(k.seen, setup.teams));

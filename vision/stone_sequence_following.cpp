@@ -113,27 +113,15 @@ void StoneSequence::Impl::fit_together(const StonePicture& picture, const StoneF
   std::vector<JudgedStone> before;
   for (const JudgedStone* s : stones) before.push_back(*s);
   const auto granite = clubs_granite(before);
-  std::vector<StoneStart> starts;
   for (JudgedStone* s : stones) {
-    if (s->before && granite) s->before.emplace(picture, s->fit.place, *granite, setup.teams);  // who stood there moves
-    starts.push_back({s->fit.place, s->glimpsed ? granite : std::nullopt, s->before ? &*s->before : nullptr});
+    if (s->before && granite)
+      s->before.emplace(picture, s->fit.place, *granite, setup.teams, s->before->by());  // who stood there moves
   }
-  fitter.begin(picture, starts, options);
-  const StoneFitResult& result = fitter.run();
-  std::vector<NearerStone> others = options.nearer;
-  for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
-  const Eigen::Vector2d eye = picture.eye().head<2>();
-  for (std::size_t i = 0; i < stones.size(); ++i) {
-    JudgedStone& s = *stones[i];
-    s.fit = result.stones[i];
-    const bool behind_another = may_be_hidden(s.fit.place, others, eye);
-    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
-                                    : doubt_of(s.candidate, s.fit, behind_another);
-  }
+  const SharedLook look = vision::fit_together(picture, options, stones, fitter);
   // What is no stone, or somebody's legs before one, would tell something else of it.
   const bool all_well =
       std::all_of(stones.begin(), stones.end(), [](const JudgedStone* s) { return s->doubt.empty(); });
-  if (all_well && !stones.empty()) shared = result.look;
+  if (all_well && !stones.empty()) shared = look;
 }
 
 }  // namespace hogline::vision

@@ -48,13 +48,7 @@ struct StoneSequence::Impl {
         return s.doubt.empty() && (s.fit.place - place).norm() < taken_m;
       });
     }
-    std::vector<NearerStone> believed() const {
-      std::vector<NearerStone> all;
-      for (const JudgedStone& s : stones) {
-        if (s.doubt.empty()) all.push_back({s.fit.place, s.fit.handle});
-      }
-      return all;
-    }
+    std::vector<KnownStone> believed() const { return vision::believed(stones); }
   };
 
   explicit Impl(const StonesSetup& given)

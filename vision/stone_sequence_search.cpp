@@ -124,7 +124,7 @@ void StoneSequence::Impl::search(const StonePicture& picture, StoneGroups& place
   }
   if (cv::countNonZero(places.centres) == 0) return;
 
-  const auto& candidates = voter.find(picture, places, {.area = area.wider(look_around_m)});
+  const auto& candidates = voter.find(picture, places, {.area = area.wider(look_around_m), .also_faint = true});
   for (const JudgedStone& s : screening.look(picture, candidates)) {
     ++diagnosis.asked;
     if (!scene.taken(s.fit.place)) scene.add(s, std::nullopt);
@@ -160,7 +160,7 @@ void StoneSequence::Impl::settle(const StonePicture& picture, const std::vector<
   }
   if (!fresh.empty()) fit_together(picture, options, fresh);
   std::vector<Eigen::Vector2d> places;
-  for (const NearerStone& s : scene.believed()) places.push_back(s.place);
+  for (const KnownStone& s : scene.believed()) places.push_back(s.place);
   for (std::size_t i = first_new; i < scene.stones.size(); ++i) {
     JudgedStone& s = scene.stones[i];
     StoneSighting sighting = sighting_of(s, setup.teams);

@@ -47,10 +47,10 @@ class Tally {
 }  // namespace
 
 StoneSurroundings surroundings_of(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer, double alike) {
+                                  const std::vector<KnownStone>& nearer, double alike) {
   const Eigen::Vector2d& place = stone.fit.place;
   const Bearing bearing = bearing_of(place, picture.eye());
-  const bool covered = std::any_of(nearer.begin(), nearer.end(), [&](const NearerStone& n) {
+  const bool covered = std::any_of(nearer.begin(), nearer.end(), [&](const KnownStone& n) {
     const Eigen::Vector2d off = n.place - place;
     return off.dot(bearing.away) < -0.5 * picture.shape.body_radius_m &&
            std::abs(off.dot(bearing.right)) < picture.shape.body_radius_m + covers_m;

@@ -16,6 +16,6 @@ struct StoneSurroundings {
 /// `nearer` are stones that may stand before it; its own place may be among them. Colours are alike that differ by less
 /// than `alike` of their difference from white ice.
 StoneSurroundings surroundings_of(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer, double alike);
+                                  const std::vector<KnownStone>& nearer, double alike);
 
 }  // namespace hogline::vision

@@ -19,6 +19,7 @@ constexpr double most_votes = 0.66;  // more than chance gives: a handle without
 constexpr double least_handle_contrast = 0.15;
 constexpr double least_explained = 0.80;
 constexpr double few_votes = 0.40;
+constexpr double clear_votes = 0.45;
 constexpr double well_explained = 0.90;
 constexpr double most_residual = 0.25;
 constexpr int least_granite_pixels = 8;  // fewer say nothing of a colour
@@ -36,6 +37,10 @@ constexpr double least_told = 0.75;
 constexpr double told_of_few = 0.5;        // over the root of their number: of few pixels more must be right
 constexpr double least_told_alone = 0.80;  // of a stone in full view 0.91 and more
 constexpr double well_told = 0.92;
+constexpr double least_visible_cut_out = 0.25;
+constexpr double surely_told = 0.95;
+constexpr double surely_granite = 0.25;     // of the telling pixels
+constexpr double least_granite_told = 0.2;  // of the telling ones, where what is no stone was left out
 constexpr int many_telling = 60;
 constexpr double least_told_at_last = 0.90;  // of what is alone and was doubted at first
 constexpr double well_explained_glimpse = 0.90;
@@ -75,6 +80,18 @@ std::string doubt_of_handle_alone(const StoneCandidate& candidate, const FittedS
 
 }  // namespace
 
+namespace {
+
+// Dark paint beside granite leaves hardly an edge to vote, but the fit may tell both.
+bool body_is_missing(const StoneCandidate& candidate, const FittedStone& fit) {
+  if (candidate.body_votes >= least_body_votes || fit.body_contrast <= clear_contrast) return false;
+  const bool told_all_the_same =
+      fit.told > surely_told && fit.explained > surely_told && fit.granite_told > surely_granite * fit.telling;
+  return !told_all_the_same;
+}
+
+}  // namespace
+
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another) {
   if (!fit.ok) return fit.reason;
   if (fit.visible < least_visible) return "too little of it can be seen";
@@ -84,8 +101,7 @@ std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bo
   if (!handle_alone && fit.handle_contrast < least_handle_contrast) return "no handle stands out";
   if (!has_a_colour(fit.handle) && candidate.votes < most_votes) return "a handle without colour, and few votes";
   if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
-  const bool should_show = !behind_another && fit.body_contrast > clear_contrast;
-  if (should_show && candidate.body_votes < least_body_votes) return "a handle's outline without a body's";
+  if (!behind_another && body_is_missing(candidate, fit)) return "a handle's outline without a body's";
   if (fit.telling > 0 && fit.told < least_told_alone) return "what is seen is not a stone's";
   if (fit.handle_told < least_handle_told * fit.telling) return "nothing of a handle";
   if (fit.explained < least_explained || fit.residual > most_residual) return "a stone does not explain the picture";
@@ -100,21 +116,25 @@ namespace {
 std::string doubt_of_votes(const StoneCandidate& candidate, const FittedStone& fit) {
   if ((fit.place - candidate.place).norm() > stayed_m) return {};
   if (candidate.handle_votes < least_handle_votes) return "hardly anything of a handle's outline";
-  const bool should_show = fit.body_contrast > clear_contrast;
-  return should_show && candidate.body_votes < least_body_votes ? "a handle's outline without a body's" : "";
+  return body_is_missing(candidate, fit) ? "a handle's outline without a body's" : "";
 }
 
 }  // namespace
 
 std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite,
-                             bool in_plain_sight) {
+                             InTheWay in_the_way) {
   if (!fit.ok) return fit.reason;
   if (fit.telling < fewest_telling) return "too little of it can be seen";
-  const double least = in_plain_sight ? least_told_at_last : least_told + told_of_few / std::sqrt(fit.telling);
+  const bool in_plain_sight = in_the_way == InTheWay::nothing;
+  const bool cut_out = in_the_way == InTheWay::what_it_is_not;
+  const double least =
+      in_plain_sight || cut_out ? least_told_at_last : least_told + told_of_few / std::sqrt(fit.telling);
   if (fit.told < least || fit.explained < well_explained_glimpse) return "what can be seen of it is not a stone's";
   const std::string doubt = in_plain_sight ? doubt_of_votes(candidate, fit) : std::string();
   if (!doubt.empty()) return doubt;
   if (fit.handle_told < fewest_handle_told) return "nothing of a handle";
+  if (cut_out && fit.visible < least_visible_cut_out) return "too little of it can be seen";
+  if (cut_out && fit.granite_told < least_granite_told * fit.telling) return "hardly any granite";
   if (!has_a_colour(fit.handle)) return "its handle has no colour";
   if (fit.handle_contrast < faint) return "no handle stands out";
   if ((fit.granite - granite).norm() > 0.6 * granite.norm()) {
@@ -124,6 +144,17 @@ std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone&
   if (!beyond_doubt && (fit.place - candidate.place).norm() > most_drift_m)
     return "the fit left the place of the votes";
   return {};
+}
+
+bool is_dubious(const JudgedStone& stone) {
+  const bool no_outline = stone.candidate.body_votes < least_body_votes && stone.fit.body_contrast > clear_contrast;
+  const bool few = stone.candidate.votes < clear_votes;
+  return stone.moved_alone || few || no_outline || in_the_way_of(stone.before, false) == InTheWay::what_it_is_not;
+}
+
+InTheWay in_the_way_of(const std::optional<Foreground>& before, bool behind_another) {
+  if (before) return before->by() == Foreground::By::unlike ? InTheWay::what_it_is_not : InTheWay::others;
+  return behind_another ? InTheWay::others : InTheWay::nothing;
 }
 
 std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones) {

@@ -18,6 +18,7 @@ struct JudgedStone {
   std::string doubt;                      ///< empty: a stone; else why it is none
   bool glimpsed = false;                  ///< judged with the club's granite known
   std::optional<Foreground> before = {};  ///< what somebody hides of it, where it was left out
+  bool moved_alone = false;  ///< found off its votes, and there was no other stone to learn the granite from
 };
 
 /// Why a fitted candidate is no stone, by itself: its "granite" is not grey or too dark or too light, its "handle" is
@@ -25,10 +26,21 @@ struct JudgedStone {
 /// `behind_another`: a nearer stone may hide its body, which then need not be seen.
 std::string doubt_of(const StoneCandidate& candidate, const FittedStone& fit, bool behind_another);
 
+/// What may keep a part of a stone from being seen.
+enum class InTheWay {
+  nothing,
+  others,         ///< nearer stones, or whoever was seen to go on beyond its outline
+  what_it_is_not  ///< all that was not like a stone was left out: what is left must be more like one
+};
+
+InTheWay in_the_way_of(const std::optional<Foreground>& before, bool behind_another);
+
 /// The same of what was fitted with the club's granite known: parts may be hidden, what is left must be a stone's.
-/// `in_plain_sight`: nothing is known that could hide any.
 std::string doubt_of_glimpse(const StoneCandidate& candidate, const FittedStone& fit, const Light& granite,
-                             bool in_plain_sight);
+                             InTheWay in_the_way);
+
+/// Paint may look like that, or somebody: a clear grip must be seen to believe it.
+bool is_dubious(const JudgedStone& stone);
 
 /// The middle one of what the believed stones show of it, channel by channel; nothing where none does.
 std::optional<Light> clubs_granite(const std::vector<JudgedStone>& stones);

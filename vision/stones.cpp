@@ -10,6 +10,7 @@
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
 #include "vision/picture/picture_shape.hpp"
+#include "vision/stone_looks.hpp"
 #include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
 
@@ -20,8 +21,7 @@ constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is st
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
 constexpr double look_around_m = 0.15;
-constexpr double least_grip = 0.65;  // of a grip in plain sight; stones in pictures of two renderers have 0.8 and more
-constexpr double alike = 0.15;       // of the light's difference from ice
+constexpr double alike = 0.15;  // of the light's difference from ice
 constexpr int most_settlings = 2;
 constexpr double made_way_m = 0.30;
 
@@ -37,7 +37,7 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<JudgedStone>& stones) {
 /// not rare, and somebody may stand behind one: both together are a person.
 std::string doubt_of_a_person(const StonePicture& picture, const JudgedStone& stone,
                               const std::vector<Eigen::Vector2d>& places) {
-  std::vector<NearerStone> nearer;
+  std::vector<KnownStone> nearer;
   for (const Eigen::Vector2d& p : places) nearer.push_back({p});
   const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
   return around.granite_below && around.handle_above ? "it goes on below the foot and above the grip" : std::string();
@@ -87,7 +87,6 @@ struct StoneFinder::Impl {
         screening(stones_setup.teams) {}
 
   Settling settle(const StonePicture& picture, const StoneArea& area, std::vector<JudgedStone>& stones);
-  void refine(const StonePicture& picture, std::vector<JudgedStone>& stones);
 
   StonesSetup setup;
   Lens lens;
@@ -116,7 +115,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
   const std::vector<StoneCandidate>& candidates =
-      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m)});
+      impl_->voter.find(picture, groups, {.area = area.wider(look_around_m), .also_faint = true});
 
   std::vector<JudgedStone> stones = impl_->screening.look(picture, candidates);
   compare_granite(stones);
@@ -161,7 +160,7 @@ std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
   const std::string person = doubt_of_a_person(picture, stone, places);
   if (!person.empty()) return person;
   const HandleAngle handle = handle_angle(picture, sighting, places);
-  if (handle.present < least_grip) return "no grip over the plate";
+  if (handle.present < least_grip_of(stone)) return "no grip over the plate";
   if (handle.ok) {
     sighting.handle_rad = handle.rad;
     sighting.handle_sigma_rad = handle.sigma_rad;
@@ -172,7 +171,7 @@ std::string last_doubt(const StonePicture& picture, const JudgedStone& stone,
 Settling StoneFinder::Impl::settle(const StonePicture& picture, const StoneArea& area,
                                    std::vector<JudgedStone>& stones) {
   const std::vector<bool> believed = believed_of(stones);
-  refine(picture, stones);
+  fit_together(picture, {}, without_doubt(stones), fitter);
   compare_granite(stones);
   part_overlapping(picture, stones);
   const std::vector<Eigen::Vector2d> places = places_of(stones);
@@ -189,28 +188,6 @@ Settling StoneFinder::Impl::settle(const StonePicture& picture, const StoneArea&
   }
   settled.again = to_be_looked_at(stones, believed, for_good);
   return settled;
-}
-
-// All together: stones that hide each other, and the shape they share.
-void StoneFinder::Impl::refine(const StonePicture& picture, std::vector<JudgedStone>& stones) {
-  const auto granite = clubs_granite(stones);
-  std::vector<StoneStart> starts;
-  for (const JudgedStone& s : stones) {
-    if (!s.doubt.empty()) continue;
-    starts.push_back({s.fit.place, s.glimpsed ? granite : std::nullopt, s.before ? &*s.before : nullptr});
-  }
-  fitter.begin(picture, starts, {});
-  const StoneFitResult& result = fitter.run();
-  std::size_t next = 0;
-  std::vector<NearerStone> others;
-  for (const FittedStone& f : result.stones) others.push_back({f.place, f.handle});
-  for (JudgedStone& s : stones) {
-    if (!s.doubt.empty()) continue;
-    s.fit = result.stones[next++];
-    const bool behind_another = may_be_hidden(s.fit.place, others, picture.eye().head<2>());
-    s.doubt = s.glimpsed && granite ? doubt_of_glimpse(s.candidate, s.fit, *granite, !s.before && !behind_another)
-                                    : doubt_of(s.candidate, s.fit, behind_another);
-  }
 }
 
 }  // namespace hogline::vision

@@ -6,16 +6,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "vision/detect/known_stone.hpp"
 #include "vision/detect/stone_picture.hpp"
 #include "vision/detect/stone_vote.hpp"
 
 namespace hogline::vision {
-
-/// A stone that is known already.
-struct KnownStone {
-  Eigen::Vector2d place;   ///< in e
-  Eigen::Vector3d handle;  ///< its colour against white ice: blue, green, red
-};
 
 class HandleSearch {
  public:

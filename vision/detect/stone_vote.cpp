@@ -9,7 +9,9 @@ namespace {
 
 constexpr float first_share = 0.22F;
 constexpr float first_handle_share = 0.33F;  // granite on dark paint has hardly an edge
-constexpr float big_x_px = 8.0F;             // half axes of a handle's outline that is searched in steps of two pixels
+constexpr float faint_share = 0.12F;         // the same, where half a stone is hidden
+constexpr float faint_handle_share = 0.16F;
+constexpr float big_x_px = 8.0F;  // half axes of a handle's outline that is searched in steps of two pixels
 constexpr float big_y_px = 4.5F;
 constexpr float handle_share = 0.55F;
 constexpr float handle_alone = 0.70F;
@@ -47,6 +49,7 @@ const std::vector<StoneCandidate>& StoneVoter::find(const StonePicture& picture,
                                                     const StoneVoteOptions& options) {
   outlines_.begin(picture.camera, picture.shape, options.area);
   field_.begin(picture.bgr, picture.ice, picture.response);
+  also_faint_ = options.also_faint;
   const auto least = static_cast<float>(options.least_votes);
   collect(groups, least - neighbours_may);
 
@@ -64,15 +67,24 @@ void StoneVoter::sort_ballots() {
 void StoneVoter::take_peaks(const StonePicture& picture, float least, std::size_t most) {
   peaks_.clear();
   candidates_.clear();
+  std::size_t count = 0;
   for (const Ballot& ballot : ballots_) {
-    if (candidates_.size() >= most) break;
-    if (std::any_of(peaks_.begin(), peaks_.end(), [&](const Ballot& p) { return ballot.removed_by(p); })) continue;
-    const Ballot peak = best_near(ballot);
-    peaks_.push_back(peak);
+    const auto taken =
+        std::find_if(peaks_.begin(), peaks_.end(), [&](const Ballot& p) { return ballot.removed_by(p); });
+    if (taken != peaks_.end()) {
+      taken->faint = taken->faint && ballot.faint;
+      continue;
+    }
+    if (count >= most) break;
+    peaks_.push_back(best_near(ballot));
+    count += peaks_.back().sum < least ? 0 : 1;
+  }
+  for (const Ballot& peak : peaks_) {
     const Eigen::Vector2d pixel(peak.x, peak.y);
     const auto place = picture.camera.plane_at(pixel, picture.shape.handle_height_m);
     if (!place || peak.sum < least) continue;
     candidates_.push_back({*place, pixel, double{peak.sum}, double{peak.votes.handle}, double{peak.votes.body}});
+    candidates_.back().faint = peak.faint;
   }
 }
 
@@ -104,13 +116,13 @@ void StoneVoter::collect(const StoneGroups& groups, float least) {
 
 void StoneVoter::vote(const Places& places, float least, const StoneOutline& outline) {
   const Asked asked = worth_asking(outline, places);
-  if (!asked.any()) return;
+  if (!asked.any.any()) return;
   const VotesOfFour all = votes_for(outline, places);
   for (int i = 0; i < std::min(4, places.count); ++i) {
-    if (!asked[i]) continue;
+    if (!asked.any[i]) continue;
     const Votes votes = all.of(i);
     const float sum = votes.all();
-    if (sum > least) ballots_.push_back({places.x + i * places.step, places.y, votes, sum, &outline});
+    if (sum > least) ballots_.push_back({places.x + i * places.step, places.y, votes, sum, asked.faint[i], &outline});
   }
 }
 
@@ -125,15 +137,19 @@ StoneVoter::Asked StoneVoter::worth_asking(const StoneOutline& outline, const Pl
   constexpr auto marks = static_cast<float>(StoneOutline::first_body_marks + StoneOutline::first_handle_marks);
   FourPlaces found = FourPlaces::Zero();
   for (const OutlineMark& m : outline.first_handle) found += edges(places, m);
-  const Asked by_handle = found >= first_handle_share * static_cast<float>(StoneOutline::first_handle_marks);
-  if (by_handle.all()) return by_handle;
+  constexpr auto handle_marks = static_cast<float>(StoneOutline::first_handle_marks);
+  const float handle_share = also_faint_ ? faint_handle_share : first_handle_share;
+  const float share = also_faint_ ? faint_share : first_share;
+  const OfFour clear_handle = found >= first_handle_share * handle_marks;
+  if (clear_handle.all()) return {clear_handle, !clear_handle};
+  const OfFour by_handle = found >= handle_share * handle_marks;
   auto left = static_cast<float>(StoneOutline::first_body_marks);
   for (const OutlineMark& m : outline.first_body) {
-    if ((found + left < first_share * marks).all()) return by_handle;
+    if ((found + left < share * marks).all()) return {by_handle, !clear_handle};
     found += edges(places, m);
     left -= 1.0F;
   }
-  return by_handle || found >= first_share * marks;
+  return {by_handle || found >= share * marks, !(clear_handle || found >= first_share * marks)};
 }
 
 StoneVoter::VotesOfFour StoneVoter::votes_for(const StoneOutline& outline, const Places& places) {
@@ -157,7 +173,7 @@ StoneVoter::Ballot StoneVoter::best_near(const Ballot& peak) {
     for (int i = 0; i < 3; ++i) {
       const Votes votes = row.of(i);
       const float sum = votes.all();
-      if (sum > best.sum) best = {peak.x - 1 + i, y, votes, sum, peak.outline};
+      if (sum > best.sum) best = {peak.x - 1 + i, y, votes, sum, peak.faint, peak.outline};
     }
   }
   return best;

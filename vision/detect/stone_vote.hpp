@@ -20,11 +20,13 @@ struct StoneCandidate {
   double handle_votes = 0.0;
   double body_votes = 0.0;
   double drift_m = 0.16;  ///< a fit that ends farther from `place` is of something else
+  bool faint = false;     ///< so little of the outlines' first marks is there that most of the stone must be hidden
 };
 
 struct StoneVoteOptions {
   StoneArea area;
   double least_votes = 0.26;
+  bool also_faint = false;
   std::size_t most_candidates = 300;  ///< a dark ring and a crowd make 150, and a stone is not always among the first
 };
 
@@ -46,6 +48,7 @@ class StoneVoter {
     int x, y;
     Votes votes;
     float sum;  ///< votes.all()
+    bool faint;
     const StoneOutline* outline;
     bool removed_by(const Ballot& peak) const;
   };
@@ -60,7 +63,12 @@ class StoneVoter {
     FourPlaces body = FourPlaces::Zero();
     Votes of(int i) const { return {handle[i], body[i]}; }
   };
-  using Asked = Eigen::Array<bool, 4, 1>;
+  using OfFour = Eigen::Array<bool, 4, 1>;
+  /// Which of four places.
+  struct Asked {
+    OfFour any;    ///< are worth asking
+    OfFour faint;  ///< only because much may be hidden
+  };
 
   FourPlaces edges(const Places& places, const OutlineMark& mark);
   Asked worth_asking(const StoneOutline& outline, const Places& places);
@@ -71,6 +79,7 @@ class StoneVoter {
   void take_peaks(const StonePicture& picture, float least, std::size_t most);
   Ballot best_near(const Ballot& peak);
 
+  bool also_faint_ = false;
   EdgeField field_;
   OutlineTable outlines_;
   std::vector<Ballot> ballots_;

@@ -12,7 +12,7 @@ constexpr double lightest_handle = 0.85;  // against white ice
 }  // namespace
 
 std::string doubt_of_surroundings(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer) {
+                                  const std::vector<KnownStone>& nearer) {
   if (!stone.glimpsed && stone.candidate.votes < least_votes) return "too few votes for the far view";
   const StoneSurroundings around = surroundings_of(picture, stone, nearer, alike);
   if (around.granite_below && around.handle_above) return "it goes on below the foot and above the grip";

@@ -12,6 +12,6 @@ namespace hogline::vision {
 /// granite's grey before a stone is no reason by itself, nor is somebody behind it in its handle's colour: a person has
 /// both. A handle without a colour, which many things have, is refused for either, and where it is ice.
 std::string doubt_of_surroundings(const StonePicture& picture, const JudgedStone& stone,
-                                  const std::vector<NearerStone>& nearer);
+                                  const std::vector<KnownStone>& nearer);
 
 }  // namespace hogline::vision

@@ -200,7 +200,7 @@ const std::vector<StoneCandidate>& FarView::Impl::vote(int level, const std::vec
 // Level by level, near stones first: they may hide those behind.
 std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, const FarArea& area) {
   std::vector<JudgedStone> all;
-  std::vector<NearerStone> nearer;
+  std::vector<KnownStone> nearer;
   const Eigen::Vector2d eye = levels[0].camera->eMc().translation().head<2>();
   for (int level = FarLevels::count - 1; level >= 0; --level) {
     const StonePicture picture = levels[level].picture(response, setup.shape);
@@ -216,7 +216,7 @@ std::vector<JudgedStone> FarView::Impl::find_stones(const FarSearch& search, con
     make_room(picture, nearer, stones);
     screening.refine(picture, stones, nearer);
 
-    std::vector<NearerStone> standing = nearer;
+    std::vector<KnownStone> standing = nearer;
     for (const JudgedStone& s : stones) {
       if (s.doubt.empty()) standing.push_back({s.fit.place, s.fit.handle});
     }

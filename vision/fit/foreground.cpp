@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/fit/unlike_stone.hpp"
+
 namespace hogline::vision {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr double alike = 0.05;        // noise
 constexpr double alike_share = 0.12;  // of the light
 constexpr double follow = 0.3;        // how fast the run's colour follows what it meets
 constexpr int blur_columns = 2;
+constexpr double most_ice = 0.3;  // of what is no stone's: else nobody stands there
 constexpr int fewest_rows = 2;
 
 double brightness(const Light& light) { return 0.114 * light[0] + 0.587 * light[1] + 0.299 * light[2]; }
@@ -65,8 +68,24 @@ bool may_be_ice(const Light& light) {
 }  // namespace
 
 Foreground::Foreground(const StonePicture& picture, const Eigen::Vector2d& place, const Light& granite,
-                       const TeamHues& teams)
-    : granite_(granite), teams_(teams), area_(covered_by(picture, place)) {
+                       const TeamHues& teams, By by)
+    : by_(by), granite_(granite), teams_(teams) {
+  if (by == By::run) {
+    find_runs(picture, place);
+  } else {
+    find_unlike(picture, place);
+  }
+}
+
+void Foreground::find_unlike(const StonePicture& picture, const Eigen::Vector2d& place) {
+  const UnlikeStone seen = unlike_stone(picture, place, granite_, teams_);
+  area_ = seen.area;
+  unlike_ = seen.unlike;
+  share_ = seen.ice < most_ice ? seen.share : 0.0;
+}
+
+void Foreground::find_runs(const StonePicture& picture, const Eigen::Vector2d& place) {
+  area_ = covered_by(picture, place);
   if (area_.empty()) return;
   lean_ = lean_at(picture, place);
   const PatchSource source(picture, place);
@@ -122,6 +141,9 @@ int Foreground::end_of_run(const PatchSource& source, int column, int from, int 
 }
 
 bool Foreground::hides(int x, int y) const {
+  if (by_ == By::unlike) {
+    return area_.contains({x, y}) && unlike_.at<std::uint8_t>(y - area_.y, x - area_.x) != 0;
+  }
   const int column = x - leaned(y) - area_.x;
   if (column < 0 || column >= area_.width || share_ == 0.0) return false;
   const auto c = static_cast<std::size_t>(column);

@@ -125,7 +125,7 @@ void StoneFitter::settle_surroundings() {
     for (const StoneModel& other : stones_) {
       if (&other != &s) s.hide_behind({other.place(), other.handle_colour()}, look_);
     }
-    for (const NearerStone& nearer : options_.nearer) s.hide_behind(nearer, look_);
+    for (const KnownStone& nearer : options_.nearer) s.hide_behind(nearer, look_);
   }
 }
 

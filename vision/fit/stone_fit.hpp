@@ -43,7 +43,7 @@ struct StoneFitOptions {
   bool fit_shape = true;
   bool covariance = true;                     ///< else that of what the shape leaves open is left out
   int pixels = 300;                           ///< about so many of each stone
-  std::vector<NearerStone> nearer = {};       ///< stones known already, which may hide parts of these
+  std::vector<KnownStone> nearer = {};        ///< stones known already, which may hide parts of these
   std::optional<SharedLook> begin_with = {};  ///< what the last picture showed of it; empty: the rig's shape
 };
 

@@ -80,7 +80,7 @@ void StoneModel::expect_granite(const Light& granite) {
   granite_weight_ = rock_weight;
 }
 
-void StoneModel::hide_behind(const NearerStone& nearer, const SharedLook& look) {
+void StoneModel::hide_behind(const KnownStone& nearer, const SharedLook& look) {
   const Eigen::Vector2d apart = nearer.place - place_;
   if (apart.norm() > neighbour_m || (nearer.place - eye_.head<2>()).norm() >= range_m()) return;
   if (std::abs(apart.dot(bearing_of(place_, eye_).right)) > abreast_m) return;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "vision/detect/known_stone.hpp"
 #include "vision/fit/foreground.hpp"
 #include "vision/fit/product_sums.hpp"
 #include "vision/fit/stone_look.hpp"
@@ -16,12 +17,6 @@ inline constexpr int model_numbers = 2 + shared_numbers;  ///< x, y before them
 
 using ModelVector = Eigen::Matrix<double, model_numbers, 1>;
 using ModelMatrix = Eigen::Matrix<double, model_numbers, model_numbers>;
-
-/// A stone that may hide parts of another.
-struct NearerStone {
-  Eigen::Vector2d place;
-  Light handle = Light::Zero();  ///< its colour against white ice
-};
 
 class StoneModel {
  public:
@@ -38,7 +33,7 @@ class StoneModel {
   /// What the stone hides, from what is seen beside it; with the handle's colour known, its grip is left out, too.
   void look_behind(const SharedLook& look);
   /// Leaves out the pixels that a nearer stone covers, and those beside the own handle that its grip seems to cover.
-  void hide_behind(const NearerStone& nearer, const SharedLook& look);
+  void hide_behind(const KnownStone& nearer, const SharedLook& look);
 
   /// Leaves out, for good, what somebody hides.
   void leave_out(const Foreground& before);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "tests/support/random_board.hpp"
 #include "vision/fit/foreground.hpp"
@@ -39,6 +41,13 @@ const Case cases[] = {
     {"in plain sight, but the hundred and twentieth of the places with votes", 11036, -1.099, -1.049},
     {"a red handle on a dark green ring, of which a few marks showed hardly an edge", 10072, -1.580, -0.152},
     {"half behind a leg with a handle's hue", 7488, 1.601, 3.767},
+    {"on a blue ring, against which its body's outline gets no votes", 4010, -0.939, 1.195},
+    {"the only stone, its votes drawn off it by the ring's edge", 11002, -0.352, 1.420},
+    {"on a dark green ring, where only its grip gets votes", 11082, 0.453, 1.229},
+    {"half behind a dark blue leg, before a dark ring", 5012, 0.858, 0.311},
+    {"half behind a red leg", 11070, 0.679, 1.528},
+    {"below an arm as dark as the ring that it lies on", 4089, -1.113, -1.216},
+    {"half behind black trousers on a black ring", 8056, -1.415, 0.808},
 };
 
 TEST(Crowd, WhatIsInSightIsFound) {
@@ -72,11 +81,34 @@ class ForegroundOf : public ::testing::Test {
                      cv::Scalar::all(220));
   }
 
-  Foreground look() const {
+  Foreground look(Foreground::By by = Foreground::By::run) const {
     const WhiteLight ice(image_, response_, 0);
     const StoneShape shape;
     const StonePicture picture{image_, response_, ice, camera_, shape};
-    return Foreground(picture, place_, Light::Constant(0.2), {});
+    return Foreground(picture, place_, Light::Constant(0.2), {}, by);
+  }
+  /// A stone's colours in its outlines.
+  void draw_stone() {
+    std::vector<cv::Point> body;
+    std::vector<cv::Point> plate;
+    const StoneShape shape;
+    const Eigen::Vector3d eye = camera_.eMc().translation();
+    const auto add = [&](std::vector<cv::Point>& outline, const Eigen::Vector3d& point) {
+      const auto p = camera_.project(point);
+      outline.emplace_back(static_cast<int>(std::lround(p->x())), static_cast<int>(std::lround(p->y())));
+    };
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 0.2618 * i;
+      add(body, body_outline_point(place_, shape, eye, angle));
+      add(plate, circle_point(place_, bearing_of(place_, eye), shape.handle_radius_m, shape.handle_height_m, angle));
+    }
+    cv::fillConvexPoly(image_, body, cv::Scalar::all(granite_level()));
+    cv::fillConvexPoly(image_, plate, cv::Scalar(20, 20, 200));
+  }
+  double granite_level() const {
+    std::uint8_t level = 0;
+    while (response_.linear(level) < 0.2F * response_.linear(std::uint8_t{220})) ++level;
+    return level;
   }
   void bar(int from_x, int to_x, int from_y, int to_y, const cv::Scalar& bgr) {
     image_(cv::Rect(cv::Point(from_x, from_y), cv::Point(to_x, to_y))).setTo(bgr);
@@ -123,10 +155,30 @@ TEST_F(ForegroundOf, WhatMayBeGraniteOrAHandleOverItIsNotTakenAway) {
   bar(middle_.x - 60, middle_.x + 60, middle_.y - 200, middle_.y, cv::Scalar(20, 20, 200));
   EXPECT_FALSE(look().hides(middle_.x, middle_.y - 4)) << "a red grip";
   image_.setTo(cv::Scalar::all(220));
-  std::uint8_t granite = 0;
-  while (response_.linear(granite) < 0.2F * response_.linear(std::uint8_t{220})) ++granite;
-  bar(middle_.x - 60, middle_.x + 60, middle_.y - 200, middle_.y + 200, cv::Scalar::all(granite));
+  bar(middle_.x - 60, middle_.x + 60, middle_.y - 200, middle_.y + 200, cv::Scalar::all(granite_level()));
   EXPECT_FALSE(look().hides(middle_.x, middle_.y)) << "grey as granite";
+}
+
+// What is not like a stone in a stone's outlines: no way of going on is asked of it.
+TEST_F(ForegroundOf, AStoneInPlainSightIsLikeOne) {
+  draw_stone();
+  EXPECT_LT(look(Foreground::By::unlike).share(), 0.1);
+}
+
+TEST_F(ForegroundOf, WhatIsNoStonesHidesWhereItIs) {
+  draw_stone();
+  bar(middle_.x - 60, middle_.x, middle_.y - 60, middle_.y + 60, dark_blue);
+  const Foreground before = look(Foreground::By::unlike);
+  EXPECT_TRUE(before.hides(middle_.x - 10, middle_.y));
+  EXPECT_FALSE(before.hides(middle_.x + 10, middle_.y));
+  EXPECT_GT(before.share(), 0.3);
+  EXPECT_LT(before.share(), 0.7);
+}
+
+TEST_F(ForegroundOf, IceInAStonesOutlinesIsNobody) {
+  draw_stone();
+  bar(middle_.x - 60, middle_.x, middle_.y - 60, middle_.y + 60, cv::Scalar::all(220));
+  EXPECT_EQ(look(Foreground::By::unlike).share(), 0.0);
 }
 
 }  // namespace
