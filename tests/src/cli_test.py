@@ -474,6 +474,32 @@ class Far(unittest.TestCase):
         self.assertIn("how the camera looks", line["reason"])
 
 
+class Score(unittest.TestCase):
+    def score(self, *words):
+        return subprocess.run([sys.executable, os.path.join(SOURCE, "tests/score.py"), *words, "--hogline", HOGLINE],
+                              capture_output=True, text=True, check=False)
+
+    def test_what_was_not_measured_is_null(self):
+        scored = self.score("pose", "--camera", "low", "--scenes", os.path.join(SOURCE, "tests/data/low"))
+        self.assertEqual(scored.returncode, 0, scored.stderr)
+        self.assertNotIn("nan", scored.stdout.lower())
+        self.assertEqual(json.loads(scored.stdout.splitlines()[-1])["estimated"], 2)
+
+    def test_folders_that_are_none(self):
+        for words in (("nosuch",), ("pose", "/nonexist")):
+            refused = subprocess.run([os.path.join(SOURCE, "dev"), "score", *words], capture_output=True, text=True, check=False)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn("no such folder: " + words[-1], refused.stderr)
+        self.assertIn("no such folder", self.score("far", "--scenes", "/nonexist").stderr)
+
+    def test_an_error_names_the_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(os.path.join(SOURCE, "tests/data/near/near-11-000.json"), folder)
+            failed = self.score("pose", "--scenes", folder)
+        self.assertNotEqual(failed.returncode, 0)
+        self.assertTrue(failed.stderr.startswith("near-11-000.jpg: "), failed.stderr)
+
+
 class Draw(unittest.TestCase):
     def test_a_folder_must_be_named(self):
         for words in (("pose", "--rig", RIG, "--camera", "near", "--draw", "", SCENE),
