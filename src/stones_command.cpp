@@ -119,7 +119,7 @@ std::string line_of(const std::string& name, const Look& look, const TeamNames& 
 struct Standing {
   vision::StoneAverage average;
   int pictures = 0;
-  std::string reason;  ///< of the last picture that showed nothing
+  std::vector<LeftOut> left_out;
 };
 
 }  // namespace
@@ -149,12 +149,12 @@ int run_stones(const StonesOptions& options) {
     }
     ++standing.pictures;
     standing.average.add(look.stones);
-    if (!look.stones.ok) standing.reason = look.stones.reason;
+    if (!look.stones.ok) standing.left_out.push_back({picture->name, look.stones.reason});
     all_estimated = all_estimated && look.ok();
   }
   if (!options.sequence) return all_estimated ? ExitStatus::success : ExitStatus::not_achieved;
   const int frames = standing.average.frames();
-  fmt::print("{}\n", stones_sequence_line(standing.pictures, frames, standing.average.stones(), standing.reason,
+  fmt::print("{}\n", stones_sequence_line(standing.pictures, frames, standing.average.stones(), standing.left_out,
                                           team_names(rig), ms_since(start)));
   return frames > 0 ? ExitStatus::success : ExitStatus::not_achieved;
 }

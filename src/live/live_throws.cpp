@@ -31,8 +31,8 @@ void LiveThrows::start(const game::Turn& turn, Stamp now) {
   report_ = {};
   followed_.reset();
   attempts_ = 0;
-  tell_("turn", fmt::format("stone {} of team {}: lay it before the thrower, and arm it", turn.stone + 1,
-                            side_of(turn.team) + 1));
+  tell_("turn",
+        fmt::format("stone {} of team{}: lay it before the thrower, and arm it", turn.stone + 1, side_of(turn.team)));
   prepare(now);
 }
 

@@ -43,7 +43,7 @@ double house_sigma_m(const std::vector<StoneSighting>& counted) {
 }
 
 std::string words(const game::Turn& turn) {
-  return fmt::format("stone {} of team {}", turn.stone + 1, side_of(turn.team) + 1);
+  return fmt::format("stone {} of team{}", turn.stone + 1, side_of(turn.team));
 }
 
 }  // namespace
