@@ -71,11 +71,15 @@ std::string handle_text(const StoneSighting& s) {
 }
 
 void tell(const vision::Board& board, int frames, const TeamNames& names) {
-  fmt::print("{} stones in {} pictures\n", board.stones.size(), frames);
-  fmt::print("{:>3} {:<8} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "", "team", "x / m", "y / m", "tee / m", "sigma", "handle");
+  const auto counted = [](std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  fmt::print("{} in {}\n", counted(board.stones.size(), "stone"), counted(static_cast<std::size_t>(frames), "picture"));
+  fmt::print("{:>3} {:<8} {:>8} {:>8} {:>8} {:>9} {:>12}\n", "", "team", "x / m", "y / m", "tee / m", "sigma / m",
+             "handle / deg");
   for (const vision::RuledStone& s : board.stones) {
     const double sigma_m = std::sqrt(std::max(s.seen.covariance.xx_m2, s.seen.covariance.yy_m2));
-    fmt::print("{:>3} {:<8} {:>8.3f} {:>8.3f} {:>8.3f} {:>7.3f} {:>7}  {}\n",
+    fmt::print("{:>3} {:<8} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.3f} {:>12}  {}\n",
                s.order > 0 ? std::to_string(s.order) : "", team_name(s.seen.team, names), s.seen.x_m, s.seen.y_m,
                s.tee_distance_m, sigma_m, handle_text(s.seen), remarks(s));
   }
@@ -94,7 +98,7 @@ void draw(DrawingFolder& drawings, const vision::StonesSetup& setup, const visio
       drawing::draw_contact_sheet({{{drawing::draw_stones(looks.last, board, camera, setup.shape), "what was seen"},
                                     {drawing::draw_board(board, looks.sheet.sheet_width_m, 1200), "from above"}}},
                                   1800);
-  fmt::print("drawing: {}\n", drawings.save("board", page));
+  fmt::print(stderr, "drawing: {}\n", drawings.save("board", page));
 }
 
 }  // namespace

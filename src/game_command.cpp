@@ -28,11 +28,12 @@ servo::ThrowerSkill practice_skill() {
 
 int print_end(const game::Referee& referee) {
   const auto& state = referee.state();
-  fmt::print(stderr, "{} : {}", total(state, Team::first), total(state, Team::second));
+  fmt::print(stderr, "team0 {} : {} team1", total(state, Team::first), total(state, Team::second));
   if (referee.phase() == game::RefereePhase::stopped)
     fmt::print(stderr, ", stopped: {}\n", referee.reason());
   else
-    fmt::print(stderr, " after {} ends{}{}\n", state.end, referee.reason().empty() ? "" : ", ", referee.reason());
+    fmt::print(stderr, " after {} end{}{}{}\n", state.end, state.end == 1 ? "" : "s",
+               referee.reason().empty() ? "" : ", ", referee.reason());
   return referee.phase() == game::RefereePhase::over ? ExitStatus::success : ExitStatus::not_achieved;
 }
 
@@ -151,6 +152,7 @@ int play_with_robots(const GameOptions& options) {
 }  // namespace
 
 int run_game(const GameOptions& options) {
+  check_seats(options);
   const OutputFolder folder("--out", options.out);
   return options.outcome_model ? play_on_outcome_model(options) : play_with_robots(options);
 }

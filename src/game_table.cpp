@@ -10,10 +10,12 @@
 #include <optional>
 #include <random>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "hw/clock.hpp"
+#include "src/config/config_error.hpp"
 #include "src/game/built_in_strategist.hpp"
 #include "src/game/practice.hpp"
 
@@ -73,7 +75,28 @@ std::ofstream opened(const std::filesystem::path& folder, const char* name) {
   return stream;
 }
 
+std::unique_ptr<DigitalCurlingStrategist> opened_seat(const hw::DigitalCurlingConfig& config, const char* option) {
+  try {
+    return std::make_unique<DigitalCurlingStrategist>(config);
+  } catch (const std::system_error& error) {
+    const std::string advice = error.code() == std::errc::address_in_use
+                                   ? "end the program that has this port, or name another one; dc:0 takes any"
+                               : error.code() == std::errc::address_not_available
+                                   ? "--address must be one of this machine's own (ip address lists them)"
+                                   : "name another port, or another --address";
+    throw std::runtime_error(fmt::format("{} dc:{}: no client can be waited for at {}:{}: {}; {}", option, config.port,
+                                         config.address, config.port, error.code().message(), advice));
+  }
+}
+
 }  // namespace
+
+void check_seats(const TableOptions& options) {
+  const auto port = port_of(options.second);
+  if (port && *port != 0 && port_of(options.first) == port)
+    throw config::ConfigError("command line", 0, "--team0 and --team1", options.second,
+                              "are one port: give each team's client its own, or dc:0 for any that is free");
+}
 
 std::string known_strategist(const std::string& text) {
   if (text == "built-in" || port_of(text)) return {};
@@ -112,7 +135,7 @@ void GameTable::seat(std::size_t side, const TableOptions& options, const servo:
   config.session.identity = identity_;
   config.session.offer = offer_;
   config.session.connect_deadline = from_seconds(options.connect_s);
-  auto client = std::make_unique<DigitalCurlingStrategist>(config);
+  auto client = opened_seat(config, side == 0 ? "--team0" : "--team1");
   fmt::print(stderr, "{} waits for its client at {}:{}, {:.0f} s at most\n", hw::digital_curling::team_name(team),
              options.address, client->port(), options.connect_s);
   clients_[side] = client.get();

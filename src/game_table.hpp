@@ -30,6 +30,9 @@ struct TableOptions {
 /// Empty when `text` names a strategist, else what is allowed: a check for the command line.
 std::string known_strategist(const std::string& text);
 
+/// Throws ConfigError where both teams' clients are to come to one port.
+void check_seats(const TableOptions& options);
+
 class GameTable {
  public:
   /// `ice`: as it is known at the moment of the question. Throws std::runtime_error where the folder can not be

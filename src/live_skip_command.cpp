@@ -101,6 +101,7 @@ void run_control(LiveSkip& skip, LiveGame* game, LoopCalls& calls, Duration peri
 
 int run_live_skip(const LiveSkipOptions& options) {
   listen_for_the_end();
+  check_seats(options.table);
   const hw::link::LinkConfig link_config = link_of(options.rig);
   const config::SkipRig rig = config::load_skip_rig(options.rig);
   const hw::SteadyClock clock;

@@ -32,8 +32,14 @@ std::string stones_line(const std::string& image, const StonesPercept& percept, 
 std::string far_stones_line(const std::string& image, const FarPercept& percept, const TeamNames& names,
                             double elapsed_ms);
 
+/// A picture of a sequence in which nothing was found, and why.
+struct LeftOut {
+  std::string image;
+  std::string reason;
+};
+
 /// The same for a robot that stands still: its pictures' stones together. `frames` of `pictures` counted.
 std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,
-                                 const std::string& reason, const TeamNames& names, double elapsed_ms);
+                                 const std::vector<LeftOut>& left_out, const TeamNames& names, double elapsed_ms);
 
 }  // namespace hogline

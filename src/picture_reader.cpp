@@ -54,9 +54,13 @@ PictureReader play_video(const std::string& path, cv::Size size, double rate_hz)
 Recording listed(const std::vector<std::string>& names, double rate_hz) {
   Recording recording;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (!fs::is_regular_file(names[k])) {
+    std::error_code error;
+    if (fs::is_directory(names[k], error))
+      throw config::ConfigError(names[k], 0, "", "", "is a folder; give it alone, or the pictures in it");
+    if (fs::exists(names[k], error) && !fs::is_regular_file(names[k], error))
+      throw config::ConfigError(names[k], 0, "", "", "is not a file; give the path of a readable JPEG or PNG file");
+    if (!fs::is_regular_file(names[k], error))
       throw config::ConfigError(names[k], 0, "", "", "no such picture; give the path of a readable JPEG or PNG file");
-    }
     recording.frames.push_back({names[k], k, from_seconds(static_cast<double>(k) / rate_hz)});
   }
   return recording;

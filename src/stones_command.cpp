@@ -123,23 +123,29 @@ struct Standing {
   vision::StoneAverage average;
   StandingStill still;
   int pictures = 0;
-  std::string reason;   ///< of the last picture that showed nothing
+  std::vector<LeftOut> left_out;
   std::string refused;  ///< why the pictures say nothing together
+  std::string refused_by;
 
   void add(const std::string& name, const Look& look) {
     ++pictures;
-    if (refused.empty() && look.sheet) refused = still.contradiction(name, *look.sheet);
+    if (refused.empty() && look.sheet) {
+      refused = still.contradiction(name, *look.sheet);
+      refused_by = name;
+    }
     average.add(look.stones);
-    if (!look.stones.ok) reason = look.stones.reason;
+    if (!look.stones.ok) left_out.push_back({name, look.stones.reason});
   }
 };
 
 int tell(const Standing& standing, const TeamNames& teams, double elapsed_ms) {
   const bool refused = !standing.refused.empty();
   const int frames = refused ? 0 : standing.average.frames();
+  std::vector<LeftOut> left_out = standing.left_out;
+  if (refused) left_out.push_back({standing.refused_by, standing.refused});
   fmt::print("{}\n", stones_sequence_line(standing.pictures, frames,
-                                          refused ? std::vector<StoneSighting>() : standing.average.stones(),
-                                          refused ? standing.refused : standing.reason, teams, elapsed_ms));
+                                          refused ? std::vector<StoneSighting>() : standing.average.stones(), left_out,
+                                          teams, elapsed_ms));
   return frames > 0 ? ExitStatus::success : ExitStatus::not_achieved;
 }
 

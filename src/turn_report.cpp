@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "hw/digital_curling/messages.hpp"
 #include "hw/files/png_writer.hpp"
 #include "src/drawing/board_picture.hpp"
 #include "src/drawing/contact_sheet.hpp"
@@ -177,7 +178,11 @@ ordered_json board_json(const servo::Board& board) {
   for (const std::size_t side : {0u, 1u}) {
     for (std::size_t i = 0; i < servo::stones_each; ++i) {
       const auto& stone = board.stones[side][i];
-      if (stone) stones.push_back({{"team", side}, {"stone", i}, {"x_m", stone->x_m}, {"y_m", stone->y_m}});
+      if (stone)
+        stones.push_back({{"team", hw::digital_curling::team_name(servo::team_of(side))},
+                          {"stone", i},
+                          {"x_m", stone->x_m},
+                          {"y_m", stone->y_m}});
     }
   }
   return stones;

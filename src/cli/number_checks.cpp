@@ -36,4 +36,14 @@ std::function<std::string(std::string&)> between(double low, double high) {
   };
 }
 
+std::function<std::string(std::string&)> whole_between(int low, int high) {
+  return [low, high](std::string& text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool read = error == std::errc{} && end == text.data() + text.size();
+    if (read && number >= low && number <= high) return std::string();
+    return fmt::format("'{}' is no whole number from {} to {}", text, low, high);
+  };
+}
+
 }  // namespace hogline::cli

@@ -15,4 +15,7 @@ std::string any_number(const std::string& text);
 /// A finite number in this range: CLI11's Range takes NaN for one. The check gives an empty text: fine.
 std::function<std::string(std::string&)> between(double low, double high);
 
+/// A whole number in this range. The check gives an empty text: fine.
+std::function<std::string(std::string&)> whole_between(int low, int high);
+
 }  // namespace hogline::cli

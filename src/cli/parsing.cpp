@@ -31,11 +31,25 @@ void check_first_word(const CLI::App& app, int argc, char** argv) {
                                         fmt::join(known, ", ")));
 }
 
+// The parser itself would take the next word for the value.
+void check_equals(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") return;
+    if (word.starts_with("--") && word.ends_with('=') && word.find('=') + 1 == word.size())
+      throw config::ConfigError("command line", 0, word.substr(0, word.size() - 1), "''",
+                                "is empty; leave the option out instead");
+  }
+}
+
 void check_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto& values = option->results();
-    if (std::ranges::any_of(values, [](const std::string& value) { return value.empty(); }))
-      throw config::ConfigError("command line", 0, option->get_name(), "''", "is empty; leave the option out instead");
+    if (std::ranges::none_of(values, [](const std::string& value) { return value.empty(); })) continue;
+    throw config::ConfigError("command line", 0, option->get_name(), "''",
+                              option->get_positional() ? "is empty: name a file"
+                              : option->get_required() ? "is empty; it must be given"
+                                                       : "is empty; leave the option out instead");
   }
 }
 
@@ -48,6 +62,7 @@ std::string help_of(const CLI::App& app) {
 
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   check_first_word(app, argc, argv);
+  check_equals(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {

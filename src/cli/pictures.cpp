@@ -34,7 +34,8 @@ void add_pose(CLI::App& app, Chosen& chosen) {
       "  hogline pose --rig rig.yaml --camera low --sequence --rate 60 run-*.jpg\n"
       "  hogline pose --rig rig.yaml --camera low --sequence run.mp4\n"
       "A stamps file has the first line name,id,time_s and then a line for each picture.\n"
-      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
+      "That all pictures are there is checked first. One that is damaged, or of another size, is one that is not\n"
+      "estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated, 2 wrong use or configuration,\n"
       "3 something outside failed (a disk, a port).");
   pose->callback([kept, &chosen] { chosen = [kept] { return run_pose(*kept); }; });
@@ -69,7 +70,8 @@ void add_stones(CLI::App& app, Chosen& chosen) {
       "The far camera's mount in the rig is with the head's pan and tilt of the picture; what the picture shows of "
       "the\n"
       "sheet corrects it by up to a degree.\n"
-      "A picture that can not be read is one that is not estimated: its line says why, and the rest go on.\n"
+      "That all pictures are there is checked first. One that is damaged, or of another size, is one that is not\n"
+      "estimated: its line says why, and the rest go on.\n"
       "Exit status: 0 all estimated, 1 some picture not estimated (of a sequence: none), 2 wrong use or\n"
       "configuration.");
   stones->callback([kept, &chosen] { chosen = [kept] { return run_stones(*kept); }; });

@@ -1,4 +1,6 @@
 // Command lines of the skip on the simulated rink.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -24,7 +26,7 @@ void add_live_game(CLI::App* skip, CLI::Option* live, TableOptions& table, std::
   seat("--team1", table.second, "the same for the second team, which has the first end's hammer");
   skip->add_option("--ends", table.ends, "how many it has")
       ->capture_default_str()
-      ->check(CLI::Range(1, 20))
+      ->check(CLI::Validator(whole_between(1, 20), "1 to 20"))
       ->needs(thrower);
   skip->add_option("--thinking", table.thinking_s, "each team's time for the whole game, s")
       ->capture_default_str()
@@ -52,7 +54,7 @@ void add_skip(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->check(whole_number);
   skip->add_option("--number", options.number, "this throw of the set that `hogline skips` measures, instead")
-      ->check(CLI::Range(0, throws_in_set - 1))
+      ->check(CLI::Validator(whole_between(0, throws_in_set - 1), fmt::format("0 to {}", throws_in_set - 1)))
       ->excludes(skip->get_option("--throw"));
   skip->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
   skip->add_flag("--unannounced", options.unannounced,
@@ -108,8 +110,10 @@ void add_skips(CLI::App& app, Chosen& chosen) {
       ->capture_default_str()
       ->check(whole_number);
   skips->add_option("--only", options.only, "this many throws, spread over the set")
-      ->check(CLI::Range(1, throws_in_set));
-  skips->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
+      ->check(CLI::Validator(whole_between(1, throws_in_set), fmt::format("1 to {}", throws_in_set)));
+  skips->add_option("--jobs", options.jobs, "throws at a time")
+      ->capture_default_str()
+      ->check(CLI::Validator(whole_between(1, 256), "1 to 256"));
   skips->add_flag("--oracle", options.oracle, "the simulator's truth with errors instead of rendered pictures");
   skips->add_option("--far-hz", options.far_hz, "rate of the far camera")
       ->check(CLI::Validator(between(2.0, 200.0), "2.0 to 200.0"));

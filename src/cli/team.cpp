@@ -39,7 +39,7 @@ void add_turn_options(CLI::App* app, TurnOptions& options) {
   add_robots(app, options.team);
   app->add_option("--stones", options.stones, "so many of the end's stones lie in the house or before it")
       ->capture_default_str()
-      ->check(CLI::Range(0, 15));
+      ->check(CLI::Validator(whole_between(0, 15), "0 to 15"));
   app->add_option("--out", options.out, "folder for pictures and turn.json")->capture_default_str();
 }
 
@@ -90,12 +90,14 @@ void add_game(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("game", "whole ends between two strategists, thrown by both robots on the simulated rink");
   game->add_option("--ends", options.ends, "how many, without extra ones")
       ->capture_default_str()
-      ->check(CLI::Range(1, 20));
+      ->check(CLI::Validator(whole_between(1, 20), "1 to 20"));
   game->add_option("--practice", options.practice,
                    "draws before the first end, from which the ice is learnt; none counts")
       ->capture_default_str()
-      ->check(CLI::Range(0, 16));
-  game->add_option("--team0", options.first, "who decides for the first team: built-in, or dc:PORT")
+      ->check(CLI::Validator(whole_between(0, 16), "0 to 16"));
+  game->add_option(
+          "--team0", options.first,
+          "who decides for the first team, that of the first handles in the rig's stone.teams: built-in, or dc:PORT")
       ->capture_default_str()
       ->check(known_strategist);
   game->add_option("--team1", options.second, "the same for the second team, which has the first end's hammer")
@@ -136,11 +138,13 @@ void add_keys(CLI::App& app, Chosen& chosen) {
   keys->add_option("--out", options.out, "folder for the keys; it must not hold any")->required();
   keys->add_option("--domain", options.domain, "the DDS domain for which they are, as link.domain in the rigs")
       ->capture_default_str()
-      ->check(CLI::Range(0, 232));
+      ->check(CLI::Validator(whole_between(0, 232), "0 to 232"));
   keys->add_option("--thrower", options.thrower, "name of the robot that throws")->capture_default_str();
   keys->add_option("--skip", options.skip, "name of the robot that orders the shots")->capture_default_str();
   keys->add_option("--observer", options.observers, "name of a machine that may listen and stop all; repeatable");
-  keys->add_option("--days", options.days, "how long they hold")->capture_default_str()->check(CLI::Range(1, 3650));
+  keys->add_option("--days", options.days, "how long they hold")
+      ->capture_default_str()
+      ->check(CLI::Validator(whole_between(1, 3650), "1 to 3650"));
   keys->footer(
       "Examples:\n"
       "  hogline keys --out keys --domain 7\n"

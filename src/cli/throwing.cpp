@@ -36,11 +36,14 @@ void add_shot(CLI::App* app, ThrowOptions& options) {
 }
 
 void add_throws(CLI::App* app, CampaignOptions& options) {
-  app->add_option("--throws", options.throws, "how many there shall be")->check(CLI::Range(1, 1000000));
+  app->add_option("--throws", options.throws, "how many there shall be")
+      ->check(CLI::Validator(whole_between(1, 1000000), "1 to 1000000"));
   app->add_option("--rig", options.rig, "rig file (YAML); without it the practice rig");
   app->add_option("--scenario", options.scenario,
                   "scenario file (YAML), each throw drawn from its ranges; without it the practice rink");
-  app->add_option("--jobs", options.jobs, "throws at a time")->capture_default_str()->check(CLI::Range(1, 256));
+  app->add_option("--jobs", options.jobs, "throws at a time")
+      ->capture_default_str()
+      ->check(CLI::Validator(whole_between(1, 256), "1 to 256"));
   app->add_option("--seed", options.seed, "of the whole campaign, a whole number from 0")
       ->capture_default_str()
       ->check(whole_number);
@@ -73,7 +76,10 @@ void add_throw(CLI::App& app, Chosen& chosen) {
       "file of what releases have taught of the jaws: read if it is there, and written after the throw");
   command->add_option("--fault", options.fault, "inject a fault: KIND@SECONDS of the run, e.g. camera-freeze@1.0")
       ->check(known_fault);
-  command->add_option("--seer", options.seer, "who looks: vision at rendered pictures, or an oracle with its errors")
+  command
+      ->add_option("--seer", options.seer,
+                   "who looks: vision at rendered pictures, or an oracle with its errors; without it rendered, and "
+                   "with --from the campaign's")
       ->check(CLI::IsMember({"oracle", "rendered"}));
   auto* from = command->add_option(
       "--from", options.from,
@@ -113,7 +119,7 @@ void add_campaign(CLI::App& app, Chosen& chosen) {
   campaign->add_option("--per-fault", options.per_fault, "throws for each fault")
       ->capture_default_str()
       ->needs(faults)
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Validator(whole_between(1, 100000), "1 to 100000"));
   campaign->footer(
       "Examples:\n"
       "  hogline campaign --throws 2000 --jobs 2 --out out/oracle\n"

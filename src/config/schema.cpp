@@ -79,7 +79,13 @@ class Explainer {
     const json& schema = resolved(schema_or_ref, root_);
     if (value.is_object() && schema.value("type", "") == "object") return explain_object(value, schema, key);
     if (value.is_array() && schema.value("type", "") == "array") return explain_array(value, schema, key);
-    if (!valid(value, schema)) refuse(key, shortened(value), "must be " + hint(schema));
+    if (valid(value, schema)) return;
+    const std::string type = schema.value("type", "");
+    const bool quoted = value.is_string() && (type == "number" || type == "integer" || type == "boolean") &&
+                        reads_otherwise(value.get<std::string>());
+    if (quoted)
+      refuse(key, "\"" + shortened(value) + "\"", "is a text in quotes; leave them out: must be " + hint(schema));
+    refuse(key, shortened(value), "must be " + hint(schema));
   }
 
  private:
@@ -128,6 +134,12 @@ class Explainer {
   static std::string hint(const json& schema) {
     const std::string about = schema.value("description", "");
     return about.empty() ? allowed(schema) : fmt::format("{} ({})", allowed(schema), about);
+  }
+
+  // Without quotes it would be no text.
+  static bool reads_otherwise(const std::string& text) {
+    const json plain = json::parse(text.starts_with('+') ? text.substr(1) : text, nullptr, false);
+    return plain.is_number() || plain.is_boolean();
   }
 
   static bool valid(const json& value, const json& part) {

@@ -280,13 +280,16 @@ void Trial::note_end() {
 // The reason, and what the devices said afterwards where it does not name one.
 std::string Trial::log() const {
   constexpr std::size_t at_most = 2;
-  std::string text = emergency_.empty() ? "" : emergency_ + "; then ";
-  text += loop_->thrower().abort_reason().value_or("");
+  std::string text = emergency_;
+  const auto add = [&text](const std::string& words) {
+    if (!words.empty()) text += (text.empty() ? "" : "; then ") + words;
+  };
+  add(loop_->thrower().abort_reason().value_or(""));
   if (text.starts_with("device: ") || loop_->device_errors().empty()) return text;
   std::size_t told = 0;
   for (const hw::DeviceError& e : loop_->device_errors()) {
     if (text.find(e.device + ": " + to_string(e.kind)) != std::string::npos || told == at_most) continue;
-    text += "; then " + e.device + ": " + to_string(e.kind) + ": " + e.what;
+    add(e.device + ": " + to_string(e.kind) + ": " + e.what);
     ++told;
   }
   return text;

@@ -41,8 +41,8 @@ void LiveThrows::start(const game::Turn& turn, Stamp now) {
   followed_.reset();
   attempts_ = 0;
   cancelled_.clear();
-  tell_("turn", fmt::format("stone {} of team {}: lay it before the thrower, and arm it", turn.stone + 1,
-                            side_of(turn.team) + 1));
+  tell_("turn",
+        fmt::format("stone {} of team{}: lay it before the thrower, and arm it", turn.stone + 1, side_of(turn.team)));
   prepare(now);
 }
 

@@ -34,7 +34,7 @@ constexpr Duration stone_told_every = std::chrono::seconds(4);
 constexpr double speed_reserve_mps = 0.1;
 
 std::string words(const game::Turn& turn) {
-  return fmt::format("stone {} of team {}", turn.stone + 1, side_of(turn.team) + 1);
+  return fmt::format("stone {} of team{}", turn.stone + 1, side_of(turn.team));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ std::vector<Known> known_of(const SeenThrow& seen) {
   return all;
 }
 
-std::string words(const Known& k) { return fmt::format("stone {} of team {}", k.name.stone + 1, k.name.side + 1); }
+std::string words(const Known& k) { return fmt::format("stone {} of team{}", k.name.stone + 1, k.name.side); }
 
 void take(Known& known, const StoneSighting& seen) {
   known.x_m = seen.x_m, known.y_m = seen.y_m;

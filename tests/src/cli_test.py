@@ -131,6 +131,32 @@ class WrongUse(unittest.TestCase):
     def test_a_gripper_without_a_line(self):
         self.refuses(run("doctor", "--rig", self.part("gripper")), "modbus", "missing", "gripper")
 
+    def test_a_number_in_quotes(self):
+        self.refuses(run("pose", "--rig", self.rig("fx_px: 780.0", 'fx_px: "780"'), "--camera", "near", SCENE),
+                     "cameras.near.fx_px", "text in quotes", "above 0")
+
+    def test_whole_numbers(self):
+        for words in (["game", "--ends", "1.5"], ["keys", "--out", "/proc/x", "--domain", "1.5"], ["skips", "--jobs", "2.0"]):
+            self.refuses(run(*words), words[-2], "no whole number from")
+
+    def test_pictures_that_are_no_files(self):
+        for path, told in (("/dev/zero", "is not a file"), ("", "name a file"), ("nope.jpg", "no such picture")):
+            self.refuses(run("stones", "--rig", RIG, SCENE, path), told)
+        self.refuses(run("stones", "--rig", RIG, SCENE, self.folder.name), "is a folder")
+
+    def test_an_empty_value_after_an_equals_sign(self):
+        self.refuses(run("stones", "--rig", RIG, "--camera", "far", "--at=", SCENE), "--at", "is empty")
+
+    def test_two_clients_on_one_port(self):
+        for command in (["game", "--outcome-model"], ["game"]):
+            self.refuses(run(*command, "--team0", "dc:40111", "--team1", "dc:40111"), "--team0", "--team1", "40111")
+
+    def test_an_address_of_another_machine(self):
+        result = run("game", "--outcome-model", "--team0", "dc:0", "--address", "192.0.2.1", "--out", self.folder.name)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        for word in ("--team0", "--address", "192.0.2.1"):
+            self.assertIn(word, result.stderr)
+
     def test_a_mistyped_subcommand(self):
         self.refuses(run("dcotor", "--rig", RIG), "dcotor", "did you mean doctor?", "pose", "faults")
         self.refuses(run("xylophone"), "xylophone", "throw")
@@ -420,6 +446,15 @@ class Stones(unittest.TestCase):
         self.assertIn("not of one robot that stands still: in " + SCENE, result.stderr)
         self.assertIn(self.SKIP, result.stderr)
 
+    def test_a_sequence_says_which_picture_was_left_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            empty = os.path.join(folder, "empty.jpg")
+            open(empty, "wb").close()
+            line = json.loads(run("stones", "--rig", RIG, "--sequence", self.SKIP, empty).stdout)
+        self.assertEqual((line["ok"], line["reason"], line["pictures"], line["frames"]), (True, None, 2, 1))
+        self.assertEqual([left["image"] for left in line["left_out"]], [empty])
+        self.assertIn("is empty", line["left_out"][0]["reason"])
+
     def test_teams_are_called_as_the_rig_calls_them(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(RIG, encoding="utf-8") as f:
@@ -557,6 +592,32 @@ class Far(unittest.TestCase):
         self.assertFalse(line["ok"])
         self.assertEqual((line["stones"], line["correction"]), ([], None))
         self.assertIn("how the camera looks", line["reason"])
+
+
+class Score(unittest.TestCase):
+    def score(self, *words):
+        return subprocess.run([sys.executable, os.path.join(SOURCE, "tests/score.py"), *words, "--hogline", HOGLINE],
+                              capture_output=True, text=True, check=False)
+
+    def test_what_was_not_measured_is_null(self):
+        scored = self.score("pose", "--camera", "low", "--scenes", os.path.join(SOURCE, "tests/data/low"))
+        self.assertEqual(scored.returncode, 0, scored.stderr)
+        self.assertNotIn("nan", scored.stdout.lower())
+        self.assertEqual(json.loads(scored.stdout.splitlines()[-1])["estimated"], 2)
+
+    def test_folders_that_are_none(self):
+        for words in (("nosuch",), ("pose", "/nonexist")):
+            refused = subprocess.run([os.path.join(SOURCE, "dev"), "score", *words], capture_output=True, text=True, check=False)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn("no such folder: " + words[-1], refused.stderr)
+        self.assertIn("no such folder", self.score("far", "--scenes", "/nonexist").stderr)
+
+    def test_an_error_names_the_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copy(os.path.join(SOURCE, "tests/data/near/near-11-000.json"), folder)
+            failed = self.score("pose", "--scenes", folder)
+        self.assertNotEqual(failed.returncode, 0)
+        self.assertTrue(failed.stderr.startswith("near-11-000.jpg: "), failed.stderr)
 
 
 class Draw(unittest.TestCase):

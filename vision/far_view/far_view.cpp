@@ -26,9 +26,9 @@ constexpr double spare_px = 12.0;       // about what is looked at of a stone
 constexpr int rows_above = 24;          // of the picture, for what is looked at about a stone
 
 // What was found on the level before, near the border of the two, is not found again.
-void make_room(const StonePicture& picture, const std::vector<NearerStone>& nearer, std::vector<JudgedStone>& stones) {
+void make_room(const StonePicture& picture, const std::vector<KnownStone>& nearer, std::vector<JudgedStone>& stones) {
   for (JudgedStone& s : stones) {
-    const bool taken = std::any_of(nearer.begin(), nearer.end(), [&](const NearerStone& n) {
+    const bool taken = std::any_of(nearer.begin(), nearer.end(), [&](const KnownStone& n) {
       return stand_in_one_place(s.fit.place, n.place, picture);
     });
     if (s.doubt.empty() && taken) s.doubt = no_room;
