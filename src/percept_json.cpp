@@ -126,7 +126,8 @@ std::string far_stones_line(const std::string& image, const FarPercept& percept,
 }
 
 std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,
-                                 const std::vector<LeftOut>& left_out, const TeamNames& names, double elapsed_ms) {
+                                 const std::vector<LeftOut>& left_out, const std::string& reason,
+                                 const TeamNames& names, double elapsed_ms) {
   ordered_json line;
   line["pictures"] = pictures;
   line["frames"] = frames;
@@ -135,7 +136,7 @@ std::string stones_sequence_line(int pictures, int frames, const std::vector<Sto
   line["left_out"] = ordered_json::array();
   for (const LeftOut& picture : left_out)
     line["left_out"].push_back({{"image", picture.image}, {"reason", picture.reason}});
-  finish(line, frames > 0 || left_out.empty() ? std::string() : "no picture shows the sheet", elapsed_ms);
+  finish(line, reason, elapsed_ms);
   return text_of(line);
 }
 

@@ -40,6 +40,7 @@ struct LeftOut {
 
 /// The same for a robot that stands still: its pictures' stones together. `frames` of `pictures` counted.
 std::string stones_sequence_line(int pictures, int frames, const std::vector<StoneSighting>& stones,
-                                 const std::vector<LeftOut>& left_out, const TeamNames& names, double elapsed_ms);
+                                 const std::vector<LeftOut>& left_out, const std::string& reason,
+                                 const TeamNames& names, double elapsed_ms);
 
 }  // namespace hogline

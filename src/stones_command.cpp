@@ -125,14 +125,10 @@ struct Standing {
   int pictures = 0;
   std::vector<LeftOut> left_out;
   std::string refused;  ///< why the pictures say nothing together
-  std::string refused_by;
 
   void add(const std::string& name, const Look& look) {
     ++pictures;
-    if (refused.empty() && look.sheet) {
-      refused = still.contradiction(name, *look.sheet);
-      refused_by = name;
-    }
+    if (refused.empty() && look.sheet) refused = still.contradiction(name, *look.sheet);
     average.add(look.stones);
     if (!look.stones.ok) left_out.push_back({name, look.stones.reason});
   }
@@ -141,11 +137,10 @@ struct Standing {
 int tell(const Standing& standing, const TeamNames& teams, double elapsed_ms) {
   const bool refused = !standing.refused.empty();
   const int frames = refused ? 0 : standing.average.frames();
-  std::vector<LeftOut> left_out = standing.left_out;
-  if (refused) left_out.push_back({standing.refused_by, standing.refused});
+  const std::string reason = refused ? standing.refused : frames == 0 ? "no picture shows the sheet" : "";
   fmt::print("{}\n", stones_sequence_line(standing.pictures, frames,
-                                          refused ? std::vector<StoneSighting>() : standing.average.stones(), left_out,
-                                          teams, elapsed_ms));
+                                          refused ? std::vector<StoneSighting>() : standing.average.stones(),
+                                          standing.left_out, reason, teams, elapsed_ms));
   return frames > 0 ? ExitStatus::success : ExitStatus::not_achieved;
 }
 
