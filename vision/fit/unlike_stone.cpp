@@ -1,10 +1,10 @@
 #include "vision/fit/unlike_stone.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 namespace hogline::vision {
 namespace {
@@ -24,7 +24,7 @@ enum Part : std::uint8_t { none, body, plate };
 
 double brightness(const Light& light) { return 0.114 * light[0] + 0.587 * light[1] + 0.299 * light[2]; }
 
-using Outline = std::vector<cv::Point2d>;
+using Outline = std::array<cv::Point2d, outline_points>;
 
 struct Outlines {
   Outline body, under, face;
@@ -37,9 +37,10 @@ struct Outlines {
     const double under_m = shape.handle_height_m - shape.handle_thickness_m;
     for (int i = 0; i < outline_points && ok; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / outline_points;
-      add(picture, body_outline_point(place, shape, picture.eye(), angle), body);
-      add(picture, circle_point(place, bearing, shape.handle_radius_m, under_m, angle), under);
-      add(picture, circle_point(place, bearing, shape.handle_radius_m, shape.handle_height_m, angle), face);
+      const auto k = static_cast<std::size_t>(i);
+      put(picture, body_outline_point(place, shape, picture.eye(), angle), body[k]);
+      put(picture, circle_point(place, bearing, shape.handle_radius_m, under_m, angle), under[k]);
+      put(picture, circle_point(place, bearing, shape.handle_radius_m, shape.handle_height_m, angle), face[k]);
     }
   }
 
@@ -58,20 +59,30 @@ struct Outlines {
   }
 
  private:
-  void add(const StonePicture& picture, const Eigen::Vector3d& point, Outline& outline) {
+  void put(const StonePicture& picture, const Eigen::Vector3d& point, cv::Point2d& seen) {
     const auto pixel = picture.camera.project(point);
     ok = ok && pixel;
-    if (ok) outline.emplace_back(pixel->x(), pixel->y());
+    if (ok) seen = {pixel->x(), pixel->y()};
   }
 };
 
 void fill(cv::Mat& parts, const Outline& outline, cv::Point origin, Part part) {
-  std::vector<cv::Point> points;
-  for (const cv::Point2d& p : outline) {
-    points.emplace_back(static_cast<int>(std::lround((p.x - origin.x) * (1 << shift))),
-                        static_cast<int>(std::lround((p.y - origin.y) * (1 << shift))));
+  std::array<cv::Point, outline_points> points;
+  std::transform(outline.begin(), outline.end(), points.begin(), [origin](const cv::Point2d& p) {
+    return cv::Point(static_cast<int>(std::lround((p.x - origin.x) * (1 << shift))),
+                     static_cast<int>(std::lround((p.y - origin.y) * (1 << shift))));
+  });
+  cv::fillConvexPoly(parts, points.data(), outline_points, cv::Scalar(part), cv::LINE_8, shift);
+}
+
+bool is_inside(const cv::Mat& parts, int x, int y) {
+  const std::uint8_t part = parts.at<std::uint8_t>(y, x);
+  for (int j = std::max(0, y - 1); j <= std::min(parts.rows - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(parts.cols - 1, x + 1); ++i) {
+      if (parts.at<std::uint8_t>(j, i) != part) return false;
+    }
   }
-  cv::fillConvexPoly(parts, points, cv::Scalar(part), cv::LINE_8, shift);
+  return true;
 }
 
 /// The part of each pixel that it shares with its neighbours; else none.
@@ -80,12 +91,14 @@ cv::Mat parts_of(const Outlines& outlines, const cv::Rect& area) {
   fill(all, outlines.body, area.tl(), body);
   fill(all, outlines.under, area.tl(), plate);
   fill(all, outlines.face, area.tl(), plate);
-  cv::Mat least;
-  cv::Mat most;
-  cv::erode(all, least, cv::Mat::ones(3, 3, CV_8UC1));
-  cv::dilate(all, most, cv::Mat::ones(3, 3, CV_8UC1));
-  all.setTo(none, least != most);
-  return all;
+  cv::Mat inner(area.size(), CV_8UC1, cv::Scalar(none));
+  for (int y = 0; y < all.rows; ++y) {
+    for (int x = 0; x < all.cols; ++x) {
+      const std::uint8_t part = all.at<std::uint8_t>(y, x);
+      if (part != none && is_inside(all, x, y)) inner.at<std::uint8_t>(y, x) = part;
+    }
+  }
+  return inner;
 }
 
 bool is_granite(const Light& light, const Light& granite) {
@@ -128,14 +141,29 @@ void for_each(const cv::Mat& parts, Part part, const Visit& visit) {
   }
 }
 
+/// How many are set in a square about a pixel, from their sums over all that is above and to the left.
+int set_about(const cv::Mat& sums, int x, int y, int radius_px) {
+  const int left = std::max(0, x - radius_px);
+  const int right = std::min(sums.cols - 1, x + radius_px + 1);
+  const int top = std::max(0, y - radius_px);
+  const int bottom = std::min(sums.rows - 1, y + radius_px + 1);
+  return sums.at<int>(bottom, right) - sums.at<int>(top, right) - sums.at<int>(bottom, left) + sums.at<int>(top, left);
+}
+
 /// 255 where more than half of what is asked in the square about a pixel is of `some`.
 cv::Mat mostly(const cv::Mat& some, const cv::Mat& asked, int radius_px) {
-  const cv::Size square(2 * radius_px + 1, 2 * radius_px + 1);
-  cv::Mat part;
-  cv::Mat all;
-  cv::boxFilter(some, part, CV_32F, square, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::boxFilter(asked, all, CV_32F, square, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::Mat result = part > 0.5F * all;
+  cv::Mat some_sums;
+  cv::Mat asked_sums;
+  cv::integral(some, some_sums, CV_32S);
+  cv::integral(asked, asked_sums, CV_32S);
+  cv::Mat result(some.size(), CV_8UC1);
+  for (int y = 0; y < result.rows; ++y) {
+    for (int x = 0; x < result.cols; ++x) {
+      const int part = set_about(some_sums, x, y, radius_px);
+      const int all = set_about(asked_sums, x, y, radius_px);
+      result.at<std::uint8_t>(y, x) = 2 * part > all ? 255 : 0;
+    }
+  }
   return result;
 }
 
@@ -166,7 +194,8 @@ UnlikeStone unlike_stone(const StonePicture& picture, const Eigen::Vector2d& pla
   for_each(parts, plate, [&](int x, int y) { judge(x, y, hue.has(light_at(x, y))); });
   for_each(parts, body, [&](int x, int y) { judge(x, y, is_granite(light_at(x, y), granite)); });
 
-  const cv::Mat asked = (parts != none) / 255;
+  cv::Mat asked;
+  cv::min(parts, 1, asked);
   const int count = cv::countNonZero(asked);
   const int unlike = cv::countNonZero(off);
   if (count == 0 || unlike == 0) return seen;
