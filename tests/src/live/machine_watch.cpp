@@ -42,11 +42,11 @@ void MachineWatch::follow(const std::string& who, pid_t process) {
   processes_[who] = process;
 }
 
-Duration MachineWatch::longest(const std::string& who, bool control, Stamp from, Stamp until) const {
+Duration MachineWatch::longest(bool control, Stamp from, Stamp until) const {
   const std::lock_guard lock(mutex_);
   Duration longest{};
   for (const Wait& wait : waits_) {
-    if (wait.at < from || wait.at > until || wait.who != who || (control && !wait.control)) continue;
+    if (wait.at < from || wait.at > until || (control && !wait.control)) continue;
     longest = std::max(longest, wait.waited);
   }
   return longest;
@@ -76,10 +76,9 @@ void MachineWatch::run_on(std::size_t processor, const std::stop_token& stop) {
   CPU_ZERO(&only);
   CPU_SET(processor, &only);
   const sched_param first{.sched_priority = before_all_others};
-  // Without the right to run first its own waiting says no more than what the kernel tells of the others.
-  if (pthread_setaffinity_np(pthread_self(), sizeof only, &only) != 0 ||
-      pthread_setschedparam(pthread_self(), SCHED_FIFO, &first) != 0)
-    return;
+  if (pthread_setaffinity_np(pthread_self(), sizeof only, &only) != 0) return;
+  // Whoever has not the right to run first has no program that may: it waits as those do.
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &first);
   while (!stop.stop_requested()) {
     const Stamp before = present();
     std::this_thread::sleep_for(tick);

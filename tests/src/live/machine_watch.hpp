@@ -21,8 +21,8 @@ struct Wait {
   Duration waited{};
 };
 
-/// Asks the kernel (/proc/PID/task/TID/schedstat: time spent waiting for a processor), and has a thread of its own
-/// on each processor that runs before all others: when one of them sleeps too long, that processor stood.
+/// Asks the kernel (/proc/PID/task/TID/schedstat: time spent waiting for a processor), and has a thread of its own on
+/// each processor, that runs before all others where it may: when one of them sleeps too long, that processor stood.
 class MachineWatch {
  public:
   MachineWatch();
@@ -32,8 +32,9 @@ class MachineWatch {
 
   /// From now on `who` has this process.
   void follow(const std::string& who, pid_t process);
-  /// The longest that a thread of `who` waited within one look between the two; its first thread alone when `control`.
-  Duration longest(const std::string& who, bool control, Stamp from, Stamp until) const;
+  /// The longest that a processor stood, or that a thread waited within one look, between the two; when `control`,
+  /// of the programs' first threads alone.
+  Duration longest(bool control, Stamp from, Stamp until) const;
 
  private:
   void look(Stamp now);

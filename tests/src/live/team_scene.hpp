@@ -145,9 +145,9 @@ class TeamScene {
   bool skip_waits();
   /// The skip plays, and its strategists sit at its table. False: it does not come to that.
   bool begin_game();
-  /// It was given up, or ended, for a reason that a machine too slow for the rink's clock makes, and the kernel says
-  /// that it did keep those waiting of whose time the reason speaks.
-  bool was_late(const Told& given_up) const;
+  /// The kernel says that the machine kept a control loop, or whoever renders or looks at pictures, waiting for longer
+  /// than the rink's clock forgives: what was given up between the two shows nothing of the programs.
+  bool was_late(Stamp from, Stamp until) const;
 
  private:
   bool skip_is_heard();
