@@ -217,6 +217,7 @@ void judge_throw(TeamScene& scene, const Kill& kill, Result& r) {
   if (!r.began) return did_not(scene, r, "no throw began", begin);
   // A throw that a busy machine has ended before: then nobody has anything to say.
   const bool under_way = !scene.thrower().told_since(begin, "aborted");
+  if (!under_way) did_not(scene, r, "the throw had ended before the signal", begin);
   const Stamp at = now();
   strike(scene, kill, r, at);
   judge(scene, r, at);
