@@ -25,7 +25,9 @@ constexpr double another_place_m = 0.04;
 constexpr double least_foreground = 0.1;  // of the columns: less is noise
 constexpr double most_foreground = 0.7;
 
-StoneFitOptions quick_look() { return {.iterations = 2, .fit_shape = false, .covariance = false, .pixels = 120}; }
+StoneFitOptions quick_look() {
+  return {.iterations = 2, .fit_shape = false, .give_up_hopeless = true, .covariance = false, .pixels = 120};
+}
 StoneFitOptions careful_look() { return {.iterations = 3, .fit_shape = false, .covariance = false, .pixels = 200}; }
 
 /// Where a fit may begin.
@@ -43,7 +45,7 @@ std::vector<Start> starts_of(const StonePicture& picture, const StoneCandidate& 
   const double step_m = std::clamp(rows_a_step * row_m, least_step_m, most_step_m);
   std::vector<Start> all{{candidate.place, true}};
   if (candidate.body_votes < least_body) all.push_back({candidate.place - grip_m * per_height * bearing.away, true});
-  for (const double steps : {-1.0, 1.0, -2.0}) all.push_back({candidate.place + steps * step_m * bearing.away, false});
+  for (const double steps : {-1.0, 1.0}) all.push_back({candidate.place + steps * step_m * bearing.away, false});
   return all;
 }
 
@@ -221,6 +223,7 @@ JudgedStone CrowdScreening::glimpse_from_starts(const StonePicture& picture, con
                                                 const std::optional<Foreground>& before) {
   StoneFitOptions options = careful_look();
   options.nearer = known;
+  options.give_up_hopeless = true;
   const InTheWay in_the_way = in_the_way_of(before, may_be_hidden(candidate.place, known, picture.eye().head<2>()));
   JudgedStone best;
   for (const Start& start : starts_of(picture, candidate)) {

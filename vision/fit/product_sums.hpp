@@ -19,15 +19,16 @@ class ProductSums {
   auto column(int i) { return columns_.col(i).head(pixels_); }
 
   /// Of each of the first columns with each other; the rest of the matrix means nothing. One weight for each pixel.
-  void sum_up(const Pixels& weights, int columns, Sums& sums);
+  /// `known`: so many of the first columns, and the weights, are those of the last time: of them `sums` knows all.
+  void sum_up(const Pixels& weights, int columns, Sums& sums, int known = 0);
 
  private:
-  template <int width>
-  void add_products(int i, int first, Sums& sums) const;
+  static constexpr int lanes = 8;
+  static_assert(most_pixels % lanes == 0);
 
   Eigen::Index pixels_ = 0;
   Eigen::Array<float, most_pixels, most_columns> columns_;
-  Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, most_pixels + 4, 1> weights_;
+  Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, most_pixels + lanes, 1> weights_;
 };
 
 }  // namespace hogline::vision

@@ -60,7 +60,8 @@ void StoneModel::linearise(const SharedLook& look, bool with_shared) {
   for (int part = 0; part < 3; ++part) {
     find_slopes(part, look, with_shared);
     const int slopes = with_shared ? most_slopes : 2;
-    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + slopes, products);
+    const int known = part < 2 ? 0 : basis_columns;
+    design_.sum_up((part == 0 ? 1.0F : colour_weight) * weight_, first_slope + slopes, products, known);
     equations.add(products, slopes, part == 0 ? fine_blur : coarse_blur);
   }
   normal_ = equations.normal.selfadjointView<Eigen::Lower>();
@@ -86,7 +87,7 @@ void StoneModel::find_slopes(int part, const SharedLook& look, bool with_shared)
   const Pixels handle = (wall * colour[0] - under) * b.by_handle;
   const Pixels face = (1.0F - wall) * colour[0] * b.by_face;
   const Pixels body = (1.0F - b.handle) * (stone - behind_.col(part)) * b.by_body;
-  fill_basis(part);
+  if (part < 2) fill_basis(part);
   const auto slope = [this](int i) { return design_.column(first_slope + i); };
   design_.column(residual_column) = residuals_.col(part);
   slope(0) = handle * handle_.by_x + face * face_.by_x + body * body_.by_x;

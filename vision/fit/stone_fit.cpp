@@ -20,6 +20,8 @@ constexpr double rim_doubt_m = 0.0020;           // how high a rounded rim seems
 constexpr double wall_light_sigma = 0.15;
 constexpr double blur_sigma_px = 0.2;
 constexpr double colour_blur_sigma_px = 0.5;
+constexpr double hopelessly_told = 0.3;  // where a fit begins: from there it does not come to a stone
+constexpr double hopelessly_explained = 0.4;
 
 SharedVector prior_weights() {
   SharedVector sigma;
@@ -102,21 +104,34 @@ void StoneFitter::begin(const StonePicture& picture, const std::vector<StoneStar
 Light StoneFitter::first_granite() const { return stones_.empty() ? Light::Zero() : stones_.front().granite_colour(); }
 
 const StoneFitResult& StoneFitter::run() {
-  for (int i = 0; i < options_.iterations; ++i) {
+  bool given_up = false;
+  for (int i = 0; i < options_.iterations && !given_up; ++i) {
     if (i % 2 == 0) settle_surroundings();
     const bool with_shared = i >= 1 && options_.fit_shape;
     for (StoneModel& s : stones_) s.linearise(look_, with_shared);
-    step(with_shared);
+    given_up = i == 0 && options_.give_up_hopeless && all_hopeless();
+    if (!given_up) step(with_shared);
   }
-  for (StoneModel& s : stones_) {
-    s.linearise(look_, options_.covariance);
-    s.conclude();
-  }
+  if (!given_up) conclude();
   result_.look = look_;
   result_.stones.clear();
   const SharedMatrix shared_covariance = shared_normal(options_.fit_shape).inverse();
   for (const StoneModel& s : stones_) result_.stones.push_back(fitted(s, shared_covariance));
   return result_;
+}
+
+void StoneFitter::conclude() {
+  for (StoneModel& s : stones_) {
+    s.linearise(look_, options_.covariance);
+    s.conclude();
+  }
+}
+
+bool StoneFitter::all_hopeless() {
+  return std::all_of(stones_.begin(), stones_.end(), [](StoneModel& s) {
+    s.conclude();
+    return s.told() < hopelessly_told || s.explained() < hopelessly_explained;
+  });
 }
 
 void StoneFitter::settle_surroundings() {

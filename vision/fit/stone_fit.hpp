@@ -41,8 +41,9 @@ struct StoneFitResult {
 struct StoneFitOptions {
   int iterations = 4;
   bool fit_shape = true;
+  bool give_up_hopeless = false;              ///< where nothing like a stone is seen at the start, no step is taken
   bool covariance = true;                     ///< else that of what the shape leaves open is left out
-  int pixels = 300;                           ///< about so many of each stone
+  int pixels = 240;                           ///< about so many of each stone
   std::vector<KnownStone> nearer = {};        ///< stones known already, which may hide parts of these
   std::optional<SharedLook> begin_with = {};  ///< what the last picture showed of it; empty: the rig's shape
 };
@@ -69,6 +70,8 @@ class StoneFitter {
 
  private:
   void settle_surroundings();
+  bool all_hopeless();  ///< concludes where they stand
+  void conclude();
   void step(bool with_shared);
   SharedMatrix shared_normal(bool with_stones) const;
   SharedVector shared_step() const;

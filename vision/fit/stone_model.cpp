@@ -131,6 +131,7 @@ void StoneModel::Blurred::mix(const DiscDistances& handle_at, const DiscDistance
   }
 }
 
+// Of both colours, which have one blur, it is the same.
 void StoneModel::fill_basis(int part) {
   const Blurred& b = blurred(part);
   design_.begin(seen_.count());
@@ -169,9 +170,9 @@ void StoneModel::find_colours(const SharedLook& look) {
   ProductSums::Sums sums;
   for (int part = 0; part < 3; ++part) {
     const Blurred& b = blurred(part);
-    fill_basis(part);
+    if (part < 2) fill_basis(part);
     design_.column(residual_column) = light_.col(part) - (1.0F - b.handle) * (1.0F - b.body) * behind_.col(part);
-    design_.sum_up(weights, first_slope, sums);
+    design_.sum_up(weights, first_slope, sums, part < 2 ? 0 : basis_columns);
     Eigen::Matrix3d normal = sums.topLeftCorner<3, 3>() + 1e-6 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d right = sums.col(residual_column).head<3>();
     normal(2, 2) += 1e-2 * normal(1, 1);

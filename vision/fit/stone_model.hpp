@@ -82,6 +82,7 @@ class StoneModel {
   };
   /// Columns of what a part of a pixel's light depends on: three colours, then what is left unexplained, then place,
   /// shared numbers and the part's own blur, which is not the other parts'.
+  static constexpr int basis_columns = 3;
   static constexpr int residual_column = 3;
   static constexpr int first_slope = 4;
   static constexpr int most_slopes = model_numbers - 1;

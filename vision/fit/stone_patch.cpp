@@ -145,7 +145,7 @@ bool PatchSource::mean_of_three(float x, float y, float step_x, float step_y, Ei
   for (int i = 0; i < 3; ++i) {
     const auto step = static_cast<float>(i);
     Eigen::Array4f light;
-    if (!sample(x + step * step_x, y + step * step_y, light)) return false;
+    if (!nearest(x + step * step_x, y + step * step_y, light)) return false;
     sum += light / 3.0F;
   }
   mean = sum.head<3>();

@@ -35,6 +35,11 @@ class PatchSource {
   bool mean_of_three(float x, float y, float step_x, float step_y, Eigen::Array3f& mean) const;
 
  private:
+  bool nearest(float x, float y, Eigen::Array4f& light) const {
+    if (!(x >= 0.0F && y >= 0.0F && x < last_x_ && y < last_y_)) return false;
+    light = padded(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F));
+    return true;
+  }
   bool sample(float x, float y, Eigen::Array4f& light) const {
     if (!(x >= 0.0F && y >= 0.0F && x < last_x_ && y < last_y_)) return false;
     const int column = static_cast<int>(x);

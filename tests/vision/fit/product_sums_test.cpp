@@ -39,6 +39,26 @@ TEST(ProductSums, AreThoseOfThePixelsAlone) {
   }
 }
 
+// Two parts of the light often share their first columns.
+TEST(ProductSums, OfColumnsThatAreKnownAreNotTakenAgain) {
+  const auto fill = [](ProductSums& products, double last) {
+    products.begin(150);
+    for (int i = 0; i < 6; ++i) {
+      for (int p = 0; p < 150; ++p) products.column(i)[p] = static_cast<float>(std::sin((i < 3 ? 0.7 : last) * i + p));
+    }
+  };
+  const Pixels weights = Pixels::Constant(150, 0.5F);
+  ProductSums products, afresh;
+  ProductSums::Sums sums, expected;
+  fill(products, 1.0);
+  products.sum_up(weights, 6, sums);
+  fill(products, 2.0);
+  products.sum_up(weights, 6, sums, 3);
+  fill(afresh, 2.0);
+  afresh.sum_up(weights, 6, expected);
+  EXPECT_EQ((sums.topLeftCorner<6, 6>()), (expected.topLeftCorner<6, 6>()));
+}
+
 TEST(NormalTable, IsTheNormalDistributionAndPassesOnWhatIsNoNumber) {
   const NormalTable table;
   for (double z = -6.0; z < 6.0; z += 0.0131) {

@@ -14,6 +14,8 @@
 #include "tests/vision/scene.hpp"
 #include "tests/vision/stones/board_score.hpp"
 #include "tests/vision/stones/negatives.hpp"
+#include "vision/detect/stone_groups.hpp"
+#include "vision/fit/stone_fit.hpp"
 
 namespace hogline::vision {
 namespace {
@@ -69,6 +71,26 @@ TEST(Stones, AllOfAPathTracedSceneWithTheirTeams) {
     }
     EXPECT_TRUE(found) << x_m << " " << y_m;
   }
+}
+
+// One that is to be given up where it can not end well takes no step from across the rim, and all of them from nearby.
+TEST(StoneFit, IsGivenUpWhereItCanNotEndWell) {
+  RandomBoard board = bare(3);
+  board.scene.exposure.stones = {red_stone(0.3, 1.0)};
+  const cv::Mat image = hogline::testing::render(board.scene);
+  const Lens lens(board.scene.setup.intrinsics);
+  const ResponseCurve response(board.scene.setup.gamma);
+  const SheetCamera camera(lens, board.scene.eMc, board.scene.setup.ice);
+  const WhiteLight ice(image, response, StoneGroupFinder(board.scene.setup, StoneShape()).top());
+  const StonePicture picture{image, response, ice, camera, StoneShape()};
+  StoneFitter fitter;
+  const auto fitted_from = [&](const Eigen::Vector2d& start) {
+    fitter.begin(picture, {{start, Light::Constant(0.2)}}, {.give_up_hopeless = true});
+    return fitter.run().stones[0];
+  };
+  const Eigen::Vector2d on_its_rim(0.2, 0.9), near_it(0.31, 1.02);
+  EXPECT_EQ(fitted_from(on_its_rim).place, on_its_rim);
+  EXPECT_LT((fitted_from(near_it).place - Eigen::Vector2d(0.3, 1.0)).norm(), 0.005);
 }
 
 TEST(Stones, RandomBoardsWithClumpsAndPeople) {
