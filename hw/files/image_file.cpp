@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hw/files/image_container.hpp"
+#include "hw/files/jpeg_damage.hpp"
 
 namespace hogline::hw::files {
 namespace {
@@ -40,7 +41,7 @@ FileBytes read_all(const std::string& path) {
   return read;
 }
 
-std::optional<ImageError> container_error(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+std::optional<ImageError> bytes_error(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   if (bytes.empty()) return ImageError{ImageErrorKind::truncated, path, "is empty; record or copy the picture again"};
   if (container_of(bytes) == Container::unknown) {
     return ImageError{ImageErrorKind::not_an_image, path,
@@ -49,6 +50,10 @@ std::optional<ImageError> container_error(const std::string& path, const std::ve
   if (!is_complete(bytes)) {
     return ImageError{ImageErrorKind::truncated, path,
                       "ends early (" + std::to_string(bytes.size()) + " bytes); copy the picture again"};
+  }
+  if (container_of(bytes) == Container::jpeg) {
+    if (const auto damage = jpeg_damage(bytes))
+      return ImageError{ImageErrorKind::damaged, path, "is damaged (" + *damage + "); copy the picture again"};
   }
   return std::nullopt;
 }
@@ -76,7 +81,7 @@ std::optional<ImageError> format_error(const std::string& path, const cv::Mat& p
 LoadedImage load_image(const std::string& path, cv::Size size) {
   FileBytes read = read_all(path);
   if (read.error) return {{}, read.error};
-  if (auto error = container_error(path, read.bytes)) return {{}, error};
+  if (auto error = bytes_error(path, read.bytes)) return {{}, error};
 
   cv::Mat picture;
   try {

@@ -12,7 +12,7 @@ enum class ImageErrorKind {
   unreadable,    ///< no permission, or the disk fails
   not_an_image,  ///< neither JPEG nor PNG inside, whatever its name says
   truncated,     ///< the file ends early
-  damaged,       ///< complete, but it can not be decoded
+  damaged,       ///< its end is there, but not all between makes sense
   wrong_size,    ///< not the rig's width and height
   wrong_format,  ///< not 8-bit colour
 };

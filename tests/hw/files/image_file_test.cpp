@@ -72,6 +72,11 @@ TEST_F(ImageFile, EverythingElseIsRefusedWithItsKindAndItsName) {
   std::string damaged = png;
   for (std::size_t i = 60; i < 400; ++i) damaged[i] = static_cast<char>(damaged[i] ^ 0x5A);
 
+  std::string scratched = jpeg;
+  for (std::size_t i = jpeg.size() / 2; i < jpeg.size() / 2 + 40; ++i) scratched[i] = '\x5A';
+  std::string without_tables = jpeg;
+  for (std::size_t i = 5, at = jpeg.find("\xFF\xC4"); i < 20; ++i) without_tables[at + i] = '\x11';
+
   struct Case {
     std::string what;
     std::string file;
@@ -88,6 +93,8 @@ TEST_F(ImageFile, EverythingElseIsRefusedWithItsKindAndItsName) {
       {"half a PNG", bytes("half.png", png.substr(0, png.size() / 2)), ImageErrorKind::truncated},
       {"a PNG without its last byte", bytes("last.png", png.substr(0, png.size() - 1)), ImageErrorKind::truncated},
       {"a JPEG with a PNG's body", bytes("mixed.jpg", jpeg.substr(0, 20) + png), ImageErrorKind::truncated},
+      {"a JPEG with a scratch", bytes("scratched.jpg", scratched), ImageErrorKind::damaged},
+      {"a JPEG without its tables", bytes("tables.jpg", without_tables), ImageErrorKind::damaged},
       {"a PNG with scrambled chunks", bytes("damaged.png", damaged), ImageErrorKind::damaged},
       {"one channel", encoded("grey.png", pattern(CV_8UC1)), ImageErrorKind::wrong_format},
       {"one channel, JPEG", encoded("grey.jpg", pattern(CV_8UC1)), ImageErrorKind::wrong_format},
