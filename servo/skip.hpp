@@ -64,6 +64,20 @@ struct SkipCommand {
   bool far_wanted = false;
 };
 
+/// A stone on its way or at rest. Pictures are older than what is known when they are looked at: `at` tells for theirs.
+struct ExpectedStone {
+  Stamp stamp{};
+  double x_m = 0.0, y_m = 0.0;
+  double vx_mps = 0.0, vy_mps = 0.0;
+  PlaceCovariance covariance;
+
+  /// Where it should be in a picture of that moment, within a second of `stamp`.
+  StoneExpectation at(Stamp moment) const {
+    const double since_s = seconds(moment - stamp);
+    return {x_m + since_s * vx_mps, y_m + since_s * vy_mps, covariance};
+  }
+};
+
 /// What is known now, for drawings, logs and whoever looks at pictures next.
 struct SkipDiagnosis {
   std::optional<PlanarPose> body;
@@ -75,7 +89,7 @@ struct SkipDiagnosis {
   std::optional<StopPrediction> stop;  ///< where it will rest if nothing stands in its way; while it runs
   double off_axis_rad = 0.0;           ///< of the stone from the far view's axis, as far as is known
   bool head_limited = false;
-  std::vector<StoneSighting> expected;  ///< every stone, for `now`
+  std::vector<ExpectedStone> expected;  ///< every stone
 };
 
 /// The end of it.

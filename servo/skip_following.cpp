@@ -6,13 +6,14 @@ namespace {
 constexpr Duration pose_refresh = std::chrono::milliseconds(500);
 constexpr Duration quiet_after = std::chrono::milliseconds(500);  // after the last stone came to rest
 
-StoneSighting expectation(const WorldStone& stone) {
-  StoneSighting at;
-  at.x_m = stone.motion.stone.x_m, at.y_m = stone.motion.stone.y_m;
+PlaceCovariance place_covariance(const WorldStone& stone) {
   const MotionCovariance& c = stone.motion.covariance;
-  at.covariance = {c(0, 0), c(0, 1), c(1, 1)};
-  at.team = stone.team;
-  return at;
+  return {c(0, 0), c(0, 1), c(1, 1)};
+}
+
+ExpectedStone expectation(const WorldStone& stone, Stamp now) {
+  const SlidingStone& s = stone.motion.stone;
+  return {now, s.x_m, s.y_m, s.vx_mps, s.vy_mps, place_covariance(stone)};
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ void Skip::Impl::note_world(Stamp now) {
   const World world = watch->at(now);
   diagnosis.expected.clear();
   for (const WorldStone& s : world.stones) {
-    if (s.phase != StonePhase::gone) diagnosis.expected.push_back(expectation(s));
+    if (s.phase != StonePhase::gone) diagnosis.expected.push_back(expectation(s, now));
   }
   diagnosis.thrown.reset();
   diagnosis.stop.reset();
@@ -70,7 +71,7 @@ void Skip::Impl::note_world(Stamp now) {
   if (!thrown) return;
   const SlidingStone& at = thrown->motion.stone;
   diagnosis.thrown = at;
-  diagnosis.thrown_covariance = expectation(*thrown).covariance;
+  diagnosis.thrown_covariance = place_covariance(*thrown);
   const bool gone = thrown->phase == StonePhase::gone;
   if (gone && last_target) {
     last_target->vx_mps = last_target->vy_mps = 0.0;

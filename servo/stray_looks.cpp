@@ -6,7 +6,8 @@
 namespace hogline::servo {
 namespace {
 
-constexpr Duration remembered = std::chrono::milliseconds(1000);
+constexpr Duration one_moment = std::chrono::microseconds(1);     // two views' pictures of it follow each other by less
+constexpr Duration remembered = std::chrono::milliseconds(1250);  // six looks at four a second
 constexpr Duration shortest_line = std::chrono::milliseconds(120);
 constexpr std::size_t least_looks = 5;
 constexpr double fastest_mps = 4.5;
@@ -132,7 +133,7 @@ void drop(World& world, const Line& line) {
 void identify_strays(World& world, const WorldConfig& config) {
   const auto old = [&](const StoneLook& look) { return look.look.stamp < world.stamp - remembered; };
   world.strays.erase(std::remove_if(world.strays.begin(), world.strays.end(), old), world.strays.end());
-  if (world.strays.size() < least_looks || world.strays.back().look.stamp != world.stamp) return;
+  if (world.strays.size() < least_looks || world.stamp - world.strays.back().look.stamp > one_moment) return;
   const auto line = best_line(world.strays);
   if (!line) return;
 

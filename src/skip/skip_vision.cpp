@@ -41,9 +41,9 @@ vision::Mount mount_of(const servo::HeadGeometry& head, const servo::HeadAngles&
   return mount;
 }
 
-std::vector<StoneExpectation> expected_of(const servo::SkipDiagnosis& known) {
+std::vector<StoneExpectation> expected_of(const servo::SkipDiagnosis& known, Stamp moment) {
   std::vector<StoneExpectation> expected;
-  for (const StoneSighting& s : known.expected) expected.push_back({s.x_m, s.y_m, s.covariance});
+  for (const servo::ExpectedStone& s : known.expected) expected.push_back(s.at(moment));
   return expected;
 }
 
@@ -123,8 +123,8 @@ servo::NearSight SkipVision::near_view(const hw::Frame& frame, const servo::Head
   const auto wide = width ? std::optional(*width + 0.6) : std::nullopt;
   // Before the throw there is time to look at everything, again and again.
   if (!known.body) impl_->stones.forget();
-  sight.stones =
-      impl_->stones.look(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide, expected_of(known));
+  sight.stones = impl_->stones.look(frame.bgr, frame.stamp, vision::from_row_major(sight.sheet.eMc), wide,
+                                    expected_of(known, frame.stamp));
   return sight;
 }
 
@@ -140,7 +140,7 @@ FarPercept SkipVision::far_view(const hw::Frame& frame, const servo::HeadAngles&
   plan.pan_sigma_rad = std::hypot(impl_->rig.far_mount_sigma_rad, known.body_sigma.yaw_rad);
   plan.tilt_sigma_rad = plan.roll_sigma_rad = impl_->rig.far_mount_sigma_rad;
   plan.sheet_width_m = known.sheet_width_m;
-  return impl_->far.look(frame.bgr, frame.stamp, plan, expected_of(known));
+  return impl_->far.look(frame.bgr, frame.stamp, plan, expected_of(known, frame.stamp));
 }
 
 }  // namespace hogline

@@ -62,7 +62,7 @@ struct LiveGame : testing::Test {
   // A person does what the skip asks for, until this stone is thrown: lays it, and arms; and again when it was given
   // up.
   void throw_stone(int team) {
-    const std::string turn = "of team " + std::to_string(team + 1) + ": lay it";
+    const std::string turn = "of team" + std::to_string(team) + ": lay it";
     const auto asked_for = [&] {
       const auto turns = skip_told(Stamp{}, "turn");
       return !turns.empty() && turns.back().what.find(turn) != std::string::npos;
@@ -160,7 +160,7 @@ TEST_F(LiveGame, goes_on_from_stone_to_stone_and_after_it_was_stopped) {
   EXPECT_THAT(scene.skip().told_since(again, "asked")->what, HasSubstr("after end 0, shot 3 of 16"));
   EXPECT_NE(records.back(), records.front()) << "what was written before is kept";
   ASSERT_TRUE(wait_until([&] { return scene.skip().told_since(again, "turn").has_value(); }, patience)) << words();
-  EXPECT_THAT(scene.skip().told_since(again, "turn")->what, HasSubstr("stone 2 of team 1"));
+  EXPECT_THAT(scene.skip().told_since(again, "turn")->what, HasSubstr("stone 2 of team0"));
   expect_clients_find_nothing_wrong();
 }
 
