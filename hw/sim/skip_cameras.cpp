@@ -60,7 +60,7 @@ CameraWorld world_of(const SkipRink& rink, const Scenario& scenario, const HeadA
     for (const FieldStone& s : moment.stones) {
       if (!s.taken_off) exposure.stones.push_back(look_of(s.motion, scenario.stone.radius_m, s.team));
     }
-    exposure.people = skip_people(rink, scenario, axes, moment);
+    exposure.people = skip_people(scenario, axes, moment);
   };
   return world;
 }
@@ -98,14 +98,13 @@ vision::Pose true_near_pose(const SkipMoment& moment, const Scenario& scenario, 
   return eMh(moment.head, *scenario.skip, axes) * hMc(true_near_mount(scenario, rig.mount), axes);
 }
 
-std::vector<PersonLook> skip_people(const SkipRink& rink, const Scenario& scenario, const HeadAxes& axes,
-                                    const SkipMoment& moment) {
+std::vector<PersonLook> skip_people(const Scenario& scenario, const HeadAxes& axes, const SkipMoment& moment) {
   std::vector<PersonLook> people = people_at(scenario.people, scenario.seed, moment.stamp);
-  if (!moment.thrown || !rink.released()) return people;
+  if (!moment.thrown || !moment.released) return people;
   const FieldStone& thrown = moment.stones[*moment.thrown];
   if (thrown.taken_off) return people;
   const Eigen::Vector3d eye = eMh(moment.head, *scenario.skip, axes).translation();
-  for (const PersonLook& p : people_about(thrown.motion, seconds(moment.stamp - *rink.released()), *scenario.skip,
+  for (const PersonLook& p : people_about(thrown.motion, seconds(moment.stamp - *moment.released), *scenario.skip,
                                           eye.x(), eye.y(), scenario.seed)) {
     people.push_back(p);
   }

@@ -28,7 +28,6 @@ vision::Pose true_near_pose(const SkipMoment& moment, const Scenario& scenario, 
                             const HeadAxes& axes);
 
 /// Everybody on the ice in that moment.
-std::vector<PersonLook> skip_people(const SkipRink& rink, const Scenario& scenario, const HeadAxes& axes,
-                                    const SkipMoment& moment);
+std::vector<PersonLook> skip_people(const Scenario& scenario, const HeadAxes& axes, const SkipMoment& moment);
 
 }  // namespace hogline::hw::sim

@@ -22,6 +22,7 @@ struct SkipMoment {
   HeadTruth head;
   std::vector<FieldStone> stones;
   std::optional<std::size_t> thrown;  ///< number of the thrown stone, once it is on the ice
+  std::optional<Stamp> released;      ///< when it was let go
 };
 
 /// Moments in the order of their stamps, kept for a while; between two of them all motion is taken to be even.

@@ -94,7 +94,7 @@ void SkipRink::remember() {
     const double angle = axis->angle_rad();
     least_room_rad_ = std::min({least_room_rad_, angle - axis->rig.min_rad, axis->rig.max_rad - angle});
   }
-  history_.add({now(), head(), field_.stones(), thrown_});
+  history_.add({now(), head(), field_.stones(), thrown_, released_});
 }
 
 }  // namespace hogline::hw::sim

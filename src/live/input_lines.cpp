@@ -10,6 +10,7 @@ namespace hogline {
 namespace {
 
 constexpr std::size_t longest = 4096;
+constexpr std::size_t shown = 40;  // of what is longer, which nobody means as words
 
 }  // namespace
 
@@ -22,9 +23,11 @@ std::optional<std::string> InputLines::line() {
     open_ = got > 0 || later;
     if (got > 0) said_.append(bytes.data(), static_cast<std::size_t>(got));
   }
-  if (said_.size() > longest && said_.find('\n') == std::string::npos) said_.clear();  // nobody's words
   const auto end = said_.find('\n');
-  if (end == std::string::npos) return std::nullopt;
+  if (end == std::string::npos) {
+    if (said_.size() > longest) said_ = said_.substr(0, shown) + "...";  // whoever reads it will refuse it
+    return std::nullopt;
+  }
   const std::string line = said_.substr(0, end);
   said_.erase(0, end + 1);
   return line;

@@ -6,7 +6,8 @@
 
 namespace hogline {
 
-/// Whoever closes stdin has nothing more to say.
+/// Whoever closes stdin has nothing more to say. Of a line that is longer than 4096 only its beginning and its end are
+/// kept, with "..." between.
 class InputLines {
  public:
   std::optional<std::string> line();

@@ -1,5 +1,6 @@
 #include "src/live/line_writer.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,11 +14,19 @@ namespace {
 
 constexpr auto pause = std::chrono::milliseconds(10);
 
+// Who reads a pipe may make it one that does not wait, for all who have it.
+bool has_room(int file) {
+  constexpr int patience_ms = 1000;
+  pollfd waiting{file, POLLOUT, 0};
+  return poll(&waiting, 1, patience_ms) == 1 && (waiting.revents & POLLOUT) != 0;
+}
+
 // A full disk is no reason to stop: what can not be written is lost, and known to be.
 bool write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const auto written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN && has_room(file)) continue;
     if (written <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -65,7 +65,7 @@ std::vector<StoneSighting> SkipOracle::look(const View& view, const vision::Pose
                                             const hw::sim::SkipMoment& moment, bool handles) {
   const vision::SheetCamera camera(vision::Lens(view.setup.intrinsics), eMc, view.setup.ice);
   const Eigen::Vector3d eye = eMc.translation();
-  const std::vector<hw::sim::PersonLook> people = hw::sim::skip_people(rink_, scenario_, axes_, moment);
+  const std::vector<hw::sim::PersonLook> people = hw::sim::skip_people(scenario_, axes_, moment);
   const auto& k = view.setup.intrinsics;
   std::uniform_real_distribution<double> share;
   std::vector<StoneSighting> seen;
