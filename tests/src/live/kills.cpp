@@ -125,7 +125,7 @@ bool not_before(const std::string& state, const std::string& other) {
 }
 
 // A busy machine may hold a loop up until a drive gives up its master: then the operator presses again, for so long.
-constexpr Duration attempts_limit = 60s;
+constexpr Duration attempts_limit = 40s;
 
 std::optional<Stamp> throw_began(TeamScene& scene) {
   const Stamp end = now() + attempts_limit;

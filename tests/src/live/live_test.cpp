@@ -20,8 +20,8 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr Duration patience = 40s;
-constexpr Duration limit = 60s;
+constexpr Duration patience = 30s;
+constexpr Duration limit = 45s;
 
 // The next stone is there, and the operator arms: the order that was thrown comes again and again, and is refused.
 void expect_no_replay_is_thrown(TeamScene& scene) {

@@ -25,8 +25,8 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr Duration patience = 40s;
-constexpr Duration limit = 90s;
+constexpr Duration patience = 30s;
+constexpr Duration limit = 60s;
 constexpr Duration watchdog = 2s;
 
 fs::path sockets() { return fs::temp_directory_path() / ("hogline-notify-" + std::to_string(getpid())); }
