@@ -156,7 +156,7 @@ struct SecureTurn : testing::Test {
   std::string follow_to_its_rest(Stamp since) {
     const auto outcome = [&] { return scene.skip().told_since(since, "outcome"); };
     const auto stopped = [&] { return scene.skip().told_since(since, "stopped"); };
-    if (!wait_until([&] { return outcome() || stopped(); }, patience)) return "nothing is told of the stone";
+    if (!wait_until([&] { return outcome() || stopped(); }, 2 * patience)) return "nothing is told of the stone";
     if (!outcome()) return "the head was stopped: " + stopped()->what;
     EXPECT_TRUE(skip_is(since, "order", "released")) << words();
     const std::string told = outcome()->what;
