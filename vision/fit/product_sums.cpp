@@ -33,8 +33,9 @@ template <int width>
   }
 }
 
-/// Of `one` with the first `count` columns. For processors with wider registers there is a version of its own.
-#if defined(__x86_64__) && !defined(__clang__)
+/// Of `one` with the first `count` columns. For processors with wider registers there is a version of its own; which
+/// one it is, is asked before ThreadSanitizer is ready.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 [[gnu::target_clones("avx2", "default")]]
 #endif
 void add_all(const float* weights, const float* one, const float* columns, int count, Eigen::Index pixels,
