@@ -105,29 +105,22 @@ void SkipEyesThread::run(const std::stop_token& stop) {
   }
 }
 
-bool SkipEyesThread::look_near() {
-  const auto frame = near_.take();
-  const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
-  if (!q) return false;
-  const Known known = this->known();
-  servo::NearSight sight = seer_->near_view(*frame, *q, known.diagnosis);
-  const std::lock_guard lock(mutex_);
-  if (known.throws != known_.throws) return true;
-  sights_.near = std::move(sight);
-  near_.deliver(*frame);
-  return true;
-}
+bool SkipEyesThread::look_near() { return look(near_, sights_.near, &SkipSeer::near_view); }
 
-bool SkipEyesThread::look_far() {
-  const auto frame = far_.take();
+bool SkipEyesThread::look_far() { return look(far_, sights_.far, &SkipSeer::far_view); }
+
+// What was looked at for a throw that is over by then is nobody's.
+template <typename Sight>
+bool SkipEyesThread::look(Box& box, Sight& seen, View<Sight> view) {
+  const auto frame = box.take();
   const auto q = frame ? angles_at(frame->stamp) : std::nullopt;
   if (!q) return false;
   const Known known = this->known();
-  FarPercept percept = seer_->far_view(*frame, *q, known.diagnosis);
+  Sight sight = (*seer_.*view)(*frame, *q, known.diagnosis);
   const std::lock_guard lock(mutex_);
   if (known.throws != known_.throws) return true;
-  sights_.far = std::move(percept);
-  far_.deliver(*frame);
+  seen = std::move(sight);
+  box.deliver(*frame);
   return true;
 }
 

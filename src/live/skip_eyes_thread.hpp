@@ -90,6 +90,10 @@ class SkipEyesThread {
   void run(const std::stop_token& stop);
   bool look_near();
   bool look_far();
+  template <typename Sight>
+  using View = Sight (SkipSeer::*)(const hw::Frame&, const servo::HeadAngles&, const servo::SkipDiagnosis&);
+  template <typename Sight>
+  bool look(Box& box, Sight& seen, View<Sight> view);
   Known known();
   std::optional<servo::HeadAngles> angles_at(Stamp stamp) const;
 
