@@ -12,6 +12,7 @@
 #include "src/config/config_error.hpp"
 #include "src/config/device_rig.hpp"
 #include "src/exit_status.hpp"
+#include "src/live/process.hpp"
 
 namespace hogline {
 namespace {
@@ -63,6 +64,7 @@ class Listener {
     const Stamp end = clock_.now() + span;
     for (Stamp beat = clock_.now(); beat < end; beat += hw::link::heartbeat_period) {
       for (; clock_.now() < beat; std::this_thread::sleep_for(1ms)) hear();
+      if (asked_to_end()) break;
       hw::HeartbeatMessage heartbeat;
       heartbeat.echoes = watch_.echoes();
       link_.send(std::move(heartbeat), clock_.now());
@@ -94,6 +96,7 @@ int run_link(const LinkOptions& options) {
   if (!rig.link) {
     throw config::ConfigError(rig.rig.file, 0, "link", "", "missing; this rig declares no link to other robots");
   }
+  listen_for_the_end();
   Listener listener(*rig.link);
   listener.listen(from_seconds(options.seconds));
 

@@ -165,6 +165,7 @@ void add_link(CLI::App& app, Chosen& chosen) {
   link->add_flag("--json", options.json, "one JSON object a peer");
   link->footer(
       "Sends nothing but heartbeats. Do not run it for a robot whose own program is running.\n"
+      "Ctrl-C ends it early; what was heard until then is printed.\n"
       "Example:\n"
       "  hogline link --rig skip.yaml --seconds 5\n"
       "Exit status: 0 all peers are there at the end, 1 one is not, 2 wrong use or configuration,\n"

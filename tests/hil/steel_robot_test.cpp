@@ -272,6 +272,10 @@ TEST(ThrowerProgram, ArmsOnTheKernelsBusWithTheRinksProgramBehindIt) {
     return text_of(std::string("/run/") + who + ".txt").find(std::string("\"event\":\"") + event) != std::string::npos;
   };
   ASSERT_TRUE(wait_until([&] { return tells("thrower-rink", "ready"); }));
+  // It is loaded before the thrower runs first, on the only processor, and stopped until it is wanted.
+  Process hand({HOGLINE_PROGRAM, "hold", "--rig", rig}, "/run/operator.txt");
+  ASSERT_TRUE(wait_until([&] { return tells("operator", "nobody listens"); }, 60s));
+  hand.signal(SIGSTOP);
   Process thrower({HOGLINE_PROGRAM, "thrower", "--rig", rig}, "/run/thrower.txt");
   std::string skip_rig = thrower_rig();
   replace_all(skip_rig, "robot: thrower", "robot: skip");
@@ -282,7 +286,7 @@ TEST(ThrowerProgram, ArmsOnTheKernelsBusWithTheRinksProgramBehindIt) {
     return text_of("/run/thrower.txt").find("the operator's switch is not held") != std::string::npos;
   };
   ASSERT_TRUE(wait_until(well, 60s)) << text_of("/run/thrower.txt");
-  Process hand({HOGLINE_PROGRAM, "hold", "--rig", rig});
+  hand.signal(SIGCONT);
   EXPECT_TRUE(wait_until([&] { return tells("thrower", "armed"); }, 60s)) << text_of("/run/thrower.txt");
   thrower.signal(SIGTERM);
   EXPECT_EQ(thrower.wait(), 0);

@@ -13,6 +13,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 HOGLINE, SOURCE = os.path.abspath(sys.argv[1]), sys.argv[2]
@@ -319,15 +320,35 @@ class Link(unittest.TestCase):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("link", refused.stderr)
 
-    def test_alone_on_the_link(self):
-        with open(RIG, encoding="utf-8") as f:
-            text = f.read()
+    def lonely_skip(self):
         path = os.path.join(self.folder.name, "skip.yaml")
-        with open(path, "w", encoding="utf-8") as f:
-            f.write(text + f"\nlink: {{robot: skip, peers: [thrower], domain: {os.getpid() % 200}, interface: lo}}\n")
-        alone = run("link", "--rig", path, "--seconds", "0.2", "--json")
+        with open(RIG, encoding="utf-8") as rig, open(path, "w", encoding="utf-8") as f:
+            f.write(rig.read() + f"\nlink: {{robot: skip, peers: [thrower], domain: {os.getpid() % 200}, interface: lo}}\n")
+        return path
+
+    def test_alone_on_the_link(self):
+        alone = run("link", "--rig", self.lonely_skip(), "--seconds", "0.2", "--json")
         self.assertEqual(alone.returncode, 1, alone.stderr)
         self.assertEqual(json.loads(alone.stdout)["presence"], "not heard")
+
+    def test_ctrl_c_ends_the_listening_and_what_was_heard_is_told(self):
+        with subprocess.Popen([HOGLINE, "link", "--rig", self.lonely_skip(), "--seconds", "86400", "--json"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as listener:
+            self.wait_until_caught(listener, signal.SIGINT)
+            listener.send_signal(signal.SIGINT)
+            out, err = listener.communicate(timeout=60)
+            self.assertEqual(listener.returncode, 1, err)
+            self.assertEqual(json.loads(out)["presence"], "not heard")
+
+    def wait_until_caught(self, process, number):
+        """Returns once the process has a handler of its own for the signal."""
+        while process.poll() is None:
+            with open(f"/proc/{process.pid}/status", encoding="utf-8") as f:
+                caught = next(line for line in f if line.startswith("SigCgt")).split()[1]
+            if int(caught, 16) >> (number - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail("ended before it listened: " + process.stderr.read())
 
 
 class Pose(unittest.TestCase):
