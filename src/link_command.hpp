@@ -11,7 +11,8 @@ struct LinkOptions {
   bool json = false;
 };
 
-/// 0: all peers are there at the end, 1: one is not. SIGINT and SIGTERM end it early, with what was heard until then. Throws ConfigError for wrong use.
+/// 0: all peers are there at the end, 1: one is not. SIGINT and SIGTERM end it early, with what was heard until then.
+/// Throws ConfigError for wrong use.
 int run_link(const LinkOptions& options);
 
 }  // namespace hogline
