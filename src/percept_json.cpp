@@ -54,6 +54,10 @@ ordered_json stones_json(const std::vector<StoneSighting>& stones, const TeamNam
   return all;
 }
 
+ordered_json known(const std::optional<double>& value, double step) {
+  return value ? ordered_json(rounded(*value, step)) : ordered_json(nullptr);
+}
+
 ordered_json correction_json(const FarCorrection& c) {
   return {{"pan_deg", degrees(c.pan_rad)},
           {"tilt_deg", degrees(c.tilt_rad)},
@@ -107,6 +111,8 @@ std::string stones_line(const std::string& image, const StonesPercept& percept, 
   line["image"] = image;
   line["ok"] = percept.ok;
   line["stones"] = stones_json(percept.stones, names);
+  line["blur_px"] = known(percept.blur_px, 1e-2);
+  line["noise"] = known(percept.noise, 1e-4);
   finish(line, percept.reason, elapsed_ms);
   return text_of(line);
 }

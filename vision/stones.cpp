@@ -10,6 +10,7 @@
 #include "vision/fit/stone_fit.hpp"
 #include "vision/handle_angle.hpp"
 #include "vision/picture/picture_shape.hpp"
+#include "vision/picture_clarity.hpp"
 #include "vision/stone_looks.hpp"
 #include "vision/stone_surroundings.hpp"
 #include "vision/stone_verdict.hpp"
@@ -112,6 +113,11 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   const StoneArea area = stone_area(sheet_width_m);
 
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
+  const PictureClarity clarity = clarity_of(image, impl_->response, ice, camera);
+  seen.blur_px = clarity.blur_px;
+  seen.noise = clarity.noise;
+  seen.reason = clarity.fault();
+  if (!seen.reason.empty()) return seen;
   const StonePicture picture{image, impl_->response, ice, camera, impl_->setup.shape};
   const StoneGroups groups = impl_->groups.find(image, ice, impl_->response);
   const std::vector<StoneCandidate>& candidates =

@@ -52,6 +52,8 @@ struct StonesPercept {
   int groups = 0;      ///< boxes in which stones were looked for
   int candidates = 0;  ///< places that gathered enough votes
   int refused = 0;     ///< of those, how many turned out to be something else
+  std::optional<double> blur_px;  ///< of painted edges, standard deviation; empty: not measured in this picture
+  std::optional<double> noise;    ///< of a pixel's light against white ice, in its square root; empty: as blur_px
 };
 
 }  // namespace hogline
