@@ -15,8 +15,7 @@ namespace hogline::vision {
 namespace {
 
 constexpr int cuts_a_ring = 14;
-constexpr double reach_px = 8.0;
-constexpr double clear_px = 12.0;  // of the picture's border
+constexpr double clear_px = 20.0;  // of the picture's border
 constexpr std::size_t least_cuts = 5;
 constexpr double least_contrast = 0.05;
 constexpr int rows_apart = 24;
@@ -34,7 +33,7 @@ std::string decimals(double value, int count) {
 }
 
 /// Across a ring's edge, where it is seen.
-std::optional<Cut> cut_across(const SheetCamera& camera, double radius_m, double angle) {
+std::optional<Cut> cut_across(const SheetCamera& camera, double radius_m, double angle, double reach_px) {
   const Eigen::Vector2d outward(std::cos(angle), std::sin(angle));
   const auto pixel = camera.project_paint(radius_m * outward);
   const auto beside = camera.project_paint(radius_m * outward + 0.005 * Eigen::Vector2d(-outward.y(), outward.x()));
@@ -43,32 +42,63 @@ std::optional<Cut> cut_across(const SheetCamera& camera, double radius_m, double
   return Cut{*pixel, {-along.y(), along.x()}, -reach_px, reach_px, 0.5, 1};
 }
 
-/// Blur of edges that run upright in the picture, and of those that lie.
-struct Blurs {
-  std::vector<double> aside;
-  std::vector<double> up;
+/// How far about an edge is looked, and what is expected there.
+struct Window {
+  double blur_px;
+  double beside_px;
+  double shift_px;
+};
+constexpr Window sharp{1.0, 5.0, 2.5};
+constexpr Window smeared{3.0, 14.0, 5.0};
 
-  std::optional<double> both() {
-    if (aside.size() < least_cuts && up.size() < least_cuts) return {};
-    if (aside.size() < least_cuts) return middle(up);
-    if (up.size() < least_cuts) return middle(aside);
-    return std::sqrt(middle(aside) * middle(up));
+/// Edges of one direction: those that should be in sight, and the blur of those that were found.
+struct Edges {
+  std::size_t tried = 0;
+  std::vector<double> blurs_px;
+
+  bool known() const { return blurs_px.size() >= least_cuts; }
+  bool missing() const { return tried >= 2 * least_cuts && !known(); }
+};
+
+struct RingEdges {
+  Edges upright;  ///< in the picture
+  Edges lying;
+
+  std::optional<double> blur_px() {
+    if (!upright.known() && !lying.known()) return {};
+    if (!upright.known()) return middle(lying.blurs_px);
+    if (!lying.known()) return middle(upright.blurs_px);
+    return std::sqrt(middle(upright.blurs_px) * middle(lying.blurs_px));
   }
 };
 
-Blurs blurs_of(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera) {
-  Blurs blurs;
+RingEdges ring_edges(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera,
+                     const Window& window) {
+  RingEdges edges;
   Profile profile;
+  const double reach_px = window.beside_px + window.shift_px + 0.5;
   for (const double radius_m : {rules::outer_ring_radius_m, rules::middle_ring_radius_m, rules::inner_ring_radius_m}) {
     for (int i = 0; i < cuts_a_ring; ++i) {
-      const auto cut = cut_across(camera, radius_m, 2.0 * std::numbers::pi * (i + 0.5) / cuts_a_ring);
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / cuts_a_ring;
+      const auto cut = cut_across(camera, radius_m, angle, reach_px);
       if (!cut || !sample(picture, response, *cut, profile)) continue;
-      const LocalEdge edge = locate(profile, {.blur_px = 1.0, .before_px = 5.0, .after_px = 5.0, .max_shift_px = 2.5});
-      if (!edge.ok() || edge.contrast < least_contrast) continue;
-      (std::abs(cut->normal.x()) > std::abs(cut->normal.y()) ? blurs.aside : blurs.up).push_back(edge.blur_px);
+      Edges& same = std::abs(cut->normal.x()) > std::abs(cut->normal.y()) ? edges.upright : edges.lying;
+      ++same.tried;
+      const LocalEdge edge = locate(profile, {.blur_px = window.blur_px,
+                                              .before_px = window.beside_px,
+                                              .after_px = window.beside_px,
+                                              .max_shift_px = window.shift_px});
+      if (edge.ok() && edge.contrast >= least_contrast) same.blurs_px.push_back(edge.blur_px);
     }
   }
-  return blurs;
+  return edges;
+}
+
+// Edges that are smeared over more than the window are not found in it.
+std::optional<double> blur_of(const Picture& picture, const ResponseCurve& response, const SheetCamera& camera) {
+  RingEdges edges = ring_edges(picture, response, camera, sharp);
+  if (edges.upright.missing() || edges.lying.missing()) edges = ring_edges(picture, response, camera, smeared);
+  return edges.blur_px();
 }
 
 /// Of white ice alone: between its pixels and their neighbours on both sides in the row there is nothing but noise.
@@ -114,7 +144,7 @@ class IceNoise {
 PictureClarity clarity_of(const cv::Mat& bgr, const ResponseCurve& response, const WhiteLight& ice,
                           const SheetCamera& camera) {
   PictureClarity clarity;
-  clarity.blur_px = blurs_of({bgr.data, bgr.cols, bgr.rows, 3, bgr.step[0]}, response, camera).both();
+  clarity.blur_px = blur_of({bgr.data, bgr.cols, bgr.rows, 3, bgr.step[0]}, response, camera);
   IceNoise noise(response);
   for (int row = bgr.rows / 2; row < bgr.rows; row += rows_apart) noise.look(bgr, ice, row);
   clarity.noise = noise.sigma();

@@ -49,9 +49,9 @@ struct StonesPercept {
   std::string reason;  ///< why not, when !ok; empty otherwise
   Stamp stamp{};       ///< middle of the exposure
   std::vector<StoneSighting> stones;
-  int groups = 0;      ///< boxes in which stones were looked for
-  int candidates = 0;  ///< places that gathered enough votes
-  int refused = 0;     ///< of those, how many turned out to be something else
+  int groups = 0;                 ///< boxes in which stones were looked for
+  int candidates = 0;             ///< places that gathered enough votes
+  int refused = 0;                ///< of those, how many turned out to be something else
   std::optional<double> blur_px;  ///< of painted edges, standard deviation; empty: not measured in this picture
   std::optional<double> noise;    ///< of a pixel's light against white ice, in its square root; empty: as blur_px
 };

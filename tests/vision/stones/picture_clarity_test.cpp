@@ -42,6 +42,12 @@ cv::Mat blurred(const cv::Mat& picture, double sigma_px) {
   return out;
 }
 
+cv::Mat smeared(const cv::Mat& picture, double length_px) {
+  cv::Mat out;
+  cv::filter2D(picture, out, -1, cv::Mat(1, static_cast<int>(length_px), CV_32F, 1.0 / length_px));
+  return out;
+}
+
 cv::Mat noisy(const cv::Mat& picture, double sigma_levels) {
   cv::RNG random(1);
   cv::Mat noise(picture.size(), CV_16SC3);
@@ -95,6 +101,9 @@ TEST(PictureClarity, AnUnclearPictureIsNoEmptySheet) {
   };
   for (const Case& c : {Case{"a lens out of focus", blurred, 3.0, "blurred"},
                         {"a misted lens", blurred, 6.0, "blurred"},
+                        {"a camera that turned", smeared, 9.0, "blurred"},
+                        {"a camera that turned fast", smeared, 15.0, "blurred"},
+                        {"one that turned faster", smeared, 25.0, "blurred"},
                         {"gain run away", noisy, 20.0, "noisy"}}) {
     const Seen seen(boards_from);
     const StonesPercept percept = seen.find(c.spoil(seen.bgr, c.amount));
