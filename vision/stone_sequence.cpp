@@ -40,7 +40,7 @@ StonesPercept StoneSequence::Impl::look(const cv::Mat& image, Stamp stamp, const
   StoneGroupFinder& groups = finder(eMc).groups();
   const SheetCamera camera(lens, eMc, setup.camera.ice);
   const StonePicture picture{image, response, light(image, eMc, groups.top(), stamp), camera, setup.shape};
-  const StoneArea area = stone_area(sheet_width_m);
+  const StoneArea area = stone_area(sheet_width_m, setup.camera.sheet.sideline);
 
   std::vector<StoneExpectation> unknown;
   const std::vector<Foretold> foretold = foretell(stamp, expected, camera, unknown);

@@ -21,6 +21,7 @@ namespace {
 constexpr double behind_hog_m = 0.25;    // a stone that lies just outside is still ours to see
 constexpr double behind_house_m = 0.60;  // behind the back line: out of play, but not yet taken away
 constexpr double beside_m = 0.05;        // its centre beyond the sideline by more: a neighbour's
+constexpr double into_bumper_m = 0.10;   // so far a stone seems to stand in one
 constexpr double look_around_m = 0.15;
 constexpr double alike = 0.15;  // of the light's difference from ice
 constexpr int most_settlings = 2;
@@ -110,7 +111,7 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
   seen.reason = shape_fault(image, impl_->lens.intrinsics());
   if (!seen.reason.empty()) return seen;
   const SheetCamera camera(impl_->lens, eMc, impl_->setup.camera.ice);
-  const StoneArea area = stone_area(sheet_width_m);
+  const StoneArea area = stone_area(sheet_width_m, impl_->setup.camera.sheet.sideline);
 
   const WhiteLight ice(image, impl_->response, impl_->groups.top());
   const PictureClarity clarity = clarity_of(image, impl_->response, ice, camera);
@@ -152,9 +153,11 @@ StonesPercept StoneFinder::find(const cv::Mat& image, Stamp stamp, const Pose& e
 
 StoneGroupFinder& StoneFinder::groups() { return impl_->groups; }
 
-StoneArea stone_area(std::optional<double> sheet_width_m) {
+// On a bumper, red or blue and a hand high, somebody's foot may look like a stone.
+StoneArea stone_area(std::optional<double> sheet_width_m, SidelineKind sideline) {
   StoneArea area;
-  area.half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m) + beside_m;
+  const double beyond_m = sideline == SidelineKind::bumper ? into_bumper_m - rules::stone_radius_m : beside_m;
+  area.half_width_m = 0.5 * sheet_width_m.value_or(rules::max_width_m) + beyond_m;
   area.min_y_m = -rules::tee_to_back_m - behind_house_m;
   area.max_y_m = rules::tee_to_hog_m + behind_hog_m;
   return area;

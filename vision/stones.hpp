@@ -36,9 +36,10 @@ struct StonesSketch {
   std::vector<Candidate> candidates;
 };
 
-/// Where a stone of this sheet can lie: its centre between the sidelines, and not far outside of hog and back line. A
-/// stone that touches one is out, but ours.
-StoneArea stone_area(std::optional<double> sheet_width_m);
+/// Where a stone of this sheet can lie: not far outside of hog and back line, and its centre between the sidelines (one
+/// that touches a line is out, but ours), or 45 mm before them where they are bumpers: no stone comes nearer to those
+/// than its radius, and places have errors. A width that is not known is the greatest that the rules allow.
+StoneArea stone_area(std::optional<double> sheet_width_m, SidelineKind sideline);
 
 /// Why what looks like a stone is none after all, by what stands up from the ice: somebody goes on, paint has no grip.
 /// The handle's direction goes into its sighting. `places` are those of all that look like stones.

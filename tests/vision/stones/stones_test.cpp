@@ -153,6 +153,27 @@ TEST(Stones, PeopleInGreyAreNone) {
   EXPECT_LE(ghosts.stones, 1) << ghosts.where;
 }
 
+TEST(StoneArea, EndsWhereNoStoneOfOursCanLie) {
+  struct Case {
+    const char* description;
+    SidelineKind sideline;
+    double x_m;
+    bool ours;
+  };
+  constexpr double width_m = 4.4;
+  for (const Case& c : {Case{"well inside", SidelineKind::line, 2.0, true},
+                        {"over the line: out of play, but ours", SidelineKind::line, 2.22, true},
+                        {"a neighbour's", SidelineKind::line, 2.30, false},
+                        {"at a bumper", SidelineKind::bumper, 2.055, true},
+                        {"at a bumper, badly placed", SidelineKind::bumper, 2.14, true},
+                        {"in a bumper: its own paint, or somebody's foot on it", SidelineKind::bumper, 2.17, false},
+                        {"where a rope hangs", SidelineKind::unknown, 2.17, true}}) {
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_EQ(stone_area(width_m, c.sideline).contains({side * c.x_m, 0.0}), c.ours) << c.description;
+    }
+  }
+}
+
 TEST(Stones, TheNeighbouringSheetsStoneIsNotOurs) {
   for (const std::uint64_t seed : {6U, 71U, 72U}) {
     RandomBoard board = bare(seed);
