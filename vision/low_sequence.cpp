@@ -27,6 +27,7 @@ constexpr double least_sigma_m = 0.001;
 constexpr double least_sigma_rad = 0.0003;
 constexpr int fewest_hog_places = 12;
 constexpr double least_hog_share = 0.3;
+constexpr int fewest_sideline_places = 6;
 
 ChoiceWishes wishes() {
   const auto& features = paint_features();
@@ -44,6 +45,22 @@ const FittedFeature* hog_line_of(const SheetFitResult& result) {
   return f == result.features.end() ? nullptr : &*f;
 }
 
+/// Of both sidelines together.
+struct SidelineSites {
+  int tried = 0;
+  int used = 0;
+};
+
+SidelineSites sidelines_of(const SheetFitResult& result) {
+  SidelineSites sites;
+  for (const FittedFeature& f : result.features) {
+    if (f.name != "left_sideline" && f.name != "right_sideline") continue;
+    sites.tried += f.sites_tried;
+    sites.used += f.sites_used;
+  }
+  return sites;
+}
+
 }  // namespace
 
 struct LowSequence::Impl {
@@ -57,6 +74,7 @@ struct LowSequence::Impl {
   const SheetFitResult& follow_at_any_speed(const cv::Mat& image, Stamp stamp);
   bool take(const SheetFitResult& result, Stamp stamp);
   bool hog_line_seen(const SheetFitResult& result) const;
+  bool sidelines_left_behind(const SheetFitResult& result) const;
   bool take_blind(const SheetFitResult& result, Stamp stamp);
   void acquire(const cv::Mat& image, Stamp stamp, LowViewSketch* sketch);
   bool dead_reckon(const cv::Mat& image, Stamp stamp);
@@ -79,6 +97,7 @@ struct LowSequence::Impl {
   Pose eMc;          // at the newest place
   PlanarPose body;   // there
   bool tracking = false;
+  bool by_sidelines = false;  // the newest place rests on them, too
   std::optional<PitchMemory> pitch;
   std::optional<double> width_m;
   std::optional<Stamp> last_stamp;
@@ -164,6 +183,8 @@ bool LowSequence::Impl::take(const SheetFitResult& result, Stamp stamp) {
   if (!hog_line_seen(result)) {
     if (!take_blind(result, stamp)) return false;
   } else {
+    if (sidelines_left_behind(result)) return give_up("the sidelines are not where the frames before put them");
+    by_sidelines = sidelines_of(result).used > 0;
     percept.features.emplace_back("tracked");
     fill_low_percept(result, setup, percept);
     along.add(stamp, {percept.body, percept.sigma});
@@ -180,6 +201,13 @@ bool LowSequence::Impl::hog_line_seen(const SheetFitResult& result) const {
   const FittedFeature* hog = hog_line_of(result);
   return hog != nullptr && hog->sites_used >= fewest_hog_places &&
          hog->sites_used >= least_hog_share * hog->sites_tried && result.sigma.y_m < most_sigma_m;
+}
+
+// Where sidelines lie in pairs a search may end on the neighbour's, and the fit does without them: hog line and centre
+// line alone hardly tell the distance from the lean. An acquisition finds them again.
+bool LowSequence::Impl::sidelines_left_behind(const SheetFitResult& result) const {
+  const SidelineSites now = sidelines_of(result);
+  return by_sidelines && now.used == 0 && now.tried >= fewest_sideline_places;
 }
 
 // The hog line has left the picture: its distance by dead reckoning, the rest as measured.
@@ -243,6 +271,8 @@ void LowSequence::Impl::acquire(const cv::Mat& image, Stamp stamp, LowViewSketch
   across.add(stamp, {percept.body, percept.sigma});
   eMc = from_row_major(percept.eMc);
   body = percept.body;
+  by_sidelines = std::any_of(percept.features.begin(), percept.features.end(),
+                             [](const std::string& f) { return f == "left_sideline" || f == "right_sideline"; });
 
   tracking = track.begin(view.fit(), track_start(eMc)).ok;
   remember_pitch();
